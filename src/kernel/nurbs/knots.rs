@@ -1,0 +1,219 @@
+//! Knot vectors. A [`KnotVector`] that exists is sorted, finite and has a non-empty domain.
+
+use serde::{Deserialize, Serialize};
+
+/// Highest degree accepted; far above anything CAD systems write, low enough to bound memory.
+pub const MAX_DEGREE: usize = 64;
+
+/// Why numbers do not form a knot vector.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum KnotError {
+    /// Degree 0 or beyond [`MAX_DEGREE`].
+    #[error("degree {degree} is not between 1 and {MAX_DEGREE}")]
+    Degree {
+        /// The degree asked for.
+        degree: usize,
+    },
+    /// Fewer knots than `2 * (degree + 1)`.
+    #[error("{found} knots are too few for degree {degree}; at least {least} are needed")]
+    TooFew {
+        /// Degree.
+        degree: usize,
+        /// Knots given.
+        found: usize,
+        /// Knots needed.
+        least: usize,
+    },
+    /// A knot is NaN or infinite.
+    #[error("knot {index} is not finite")]
+    NotFinite {
+        /// Position.
+        index: usize,
+    },
+    /// A knot is smaller than the one before.
+    #[error("knot {index} ({value}) is smaller than the knot before it ({before})")]
+    NotSorted {
+        /// Position.
+        index: usize,
+        /// Knot.
+        value: f64,
+        /// Knot before.
+        before: f64,
+    },
+    /// All knots of the domain coincide, or an inner knot repeats more than `degree + 1` times.
+    #[error("the domain is empty: from {start} to {end}")]
+    EmptyDomain {
+        /// First parameter.
+        start: f64,
+        /// Last parameter.
+        end: f64,
+    },
+}
+
+/// A sorted, finite, flat knot vector (multiplicities written out) with its degree. Need not be clamped.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "KnotData", into = "KnotData")]
+pub struct KnotVector {
+    degree: usize,
+    knots: Vec<f64>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct KnotData {
+    degree: usize,
+    knots: Vec<f64>,
+}
+
+impl TryFrom<KnotData> for KnotVector {
+    type Error = KnotError;
+    fn try_from(data: KnotData) -> Result<Self, KnotError> {
+        Self::new(data.degree, data.knots)
+    }
+}
+
+impl From<KnotVector> for KnotData {
+    fn from(knots: KnotVector) -> Self {
+        Self { degree: knots.degree, knots: knots.knots }
+    }
+}
+
+impl KnotVector {
+    /// Takes `knots` (flat, sorted) for a spline of `degree`.
+    ///
+    /// # Errors
+    /// See [`KnotError`].
+    pub fn new(degree: usize, knots: Vec<f64>) -> Result<Self, KnotError> {
+        if degree == 0 || degree > MAX_DEGREE {
+            return Err(KnotError::Degree { degree });
+        }
+        let least = 2 * (degree + 1);
+        if knots.len() < least {
+            return Err(KnotError::TooFew { degree, found: knots.len(), least });
+        }
+        if let Some(index) = knots.iter().position(|k| !k.is_finite()) {
+            return Err(KnotError::NotFinite { index });
+        }
+        if let Some(i) = knots.windows(2).position(|w| w[1] < w[0]) {
+            return Err(KnotError::NotSorted { index: i + 1, value: knots[i + 1], before: knots[i] });
+        }
+        let vector = Self { degree, knots };
+        let (start, end) = vector.domain();
+        if !(end > start) || !(end - start).is_finite() {
+            return Err(KnotError::EmptyDomain { start, end });
+        }
+        Ok(vector)
+    }
+
+    /// The clamped knot vector of one Bezier piece over `[start, end]`.
+    ///
+    /// # Errors
+    /// When the degree is out of range or the interval is empty.
+    pub fn bezier(degree: usize, start: f64, end: f64) -> Result<Self, KnotError> {
+        let mut knots = vec![start; degree + 1];
+        knots.resize(2 * (degree + 1), end);
+        Self::new(degree, knots)
+    }
+
+    /// Polynomial degree.
+    pub fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// All knots, repeated ones written out.
+    pub fn as_slice(&self) -> &[f64] {
+        &self.knots
+    }
+
+    /// Number of control points of a spline over these knots.
+    pub fn control_count(&self) -> usize {
+        self.knots.len() - self.degree - 1
+    }
+
+    /// First and last parameter at which a spline over these knots is defined.
+    pub fn domain(&self) -> (f64, f64) {
+        (self.knots[self.degree], self.knots[self.knots.len() - self.degree - 1])
+    }
+
+    /// Index `i` with `knots[i] <= t < knots[i + 1]`, `degree <= i < control_count`; clamped to the
+    /// domain, and the last non-empty span at its end (Piegl & Tiller, algorithm A2.1).
+    pub fn span(&self, t: f64) -> usize {
+        let last = self.control_count() - 1;
+        let inner = &self.knots[self.degree + 1..=last];
+        let mut span = self.degree + inner.partition_point(|k| *k <= t);
+        // At the end of an unclamped or multiple end knot: step back to a span that is not empty.
+        while span > self.degree && self.knots[span] >= self.knots[span + 1] {
+            span -= 1;
+        }
+        while span < last && self.knots[span] >= self.knots[span + 1] {
+            span += 1;
+        }
+        span
+    }
+
+    /// The distinct knots inside the domain, both ends included.
+    pub fn breaks(&self) -> Vec<f64> {
+        let (start, end) = self.domain();
+        let mut breaks: Vec<f64> = self.knots.iter().copied().filter(|k| *k >= start && *k <= end).collect();
+        breaks.dedup();
+        breaks
+    }
+
+    /// The `degree + 1` basis functions and their first `derivatives` derivatives at `t` in span
+    /// `span`: `result[k][j]` is the `k`-th derivative of `N_{span - degree + j}` (Piegl & Tiller, A2.3).
+    pub fn basis(&self, span: usize, t: f64, derivatives: usize) -> Vec<Vec<f64>> {
+        let (p, u) = (self.degree, &self.knots);
+        let mut ndu = vec![vec![0.0; p + 1]; p + 1];
+        let (mut left, mut right) = (vec![0.0; p + 1], vec![0.0; p + 1]);
+        ndu[0][0] = 1.0;
+        for j in 1..=p {
+            left[j] = t - u[span + 1 - j];
+            right[j] = u[span + j] - t;
+            let mut saved = 0.0;
+            for r in 0..j {
+                ndu[j][r] = right[r + 1] + left[j - r];
+                let temp = ndu[r][j - 1] / ndu[j][r];
+                ndu[r][j] = saved + right[r + 1] * temp;
+                saved = left[j - r] * temp;
+            }
+            ndu[j][j] = saved;
+        }
+        let mut ders = vec![vec![0.0; p + 1]; derivatives + 1];
+        for j in 0..=p {
+            ders[0][j] = ndu[j][p];
+        }
+        let mut a = vec![vec![0.0; p + 1]; 2];
+        for r in 0..=p {
+            let (mut s1, mut s2) = (0, 1);
+            a[0][0] = 1.0;
+            for k in 1..=derivatives.min(p) {
+                let mut d = 0.0;
+                let (pk, rk) = (p - k, r as isize - k as isize);
+                if r >= k {
+                    a[s2][0] = a[s1][0] / ndu[pk + 1][r - k];
+                    d = a[s2][0] * ndu[r - k][pk];
+                }
+                let j1 = if rk >= -1 { 1 } else { (-rk) as usize };
+                let j2 = if r as isize - 1 <= pk as isize { k - 1 } else { p - r };
+                for j in j1..=j2 {
+                    let column = (rk + j as isize) as usize;
+                    a[s2][j] = (a[s1][j] - a[s1][j - 1]) / ndu[pk + 1][column];
+                    d += a[s2][j] * ndu[column][pk];
+                }
+                if r <= pk {
+                    a[s2][k] = -a[s1][k - 1] / ndu[pk + 1][r];
+                    d += a[s2][k] * ndu[r][pk];
+                }
+                ders[k][r] = d;
+                std::mem::swap(&mut s1, &mut s2);
+            }
+        }
+        let mut factor = p as f64;
+        for (k, row) in ders.iter_mut().enumerate().skip(1) {
+            for value in row.iter_mut() {
+                *value *= factor;
+            }
+            factor *= p.saturating_sub(k) as f64;
+        }
+        ders
+    }
+}

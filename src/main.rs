@@ -1,0 +1,5 @@
+//! The `hairline` program: parses the command line and dispatches.
+
+fn main() -> std::process::ExitCode {
+    hairline::commands::run()
+}

@@ -1,0 +1,94 @@
+//! The records of a model: parts, faces, trim loops, with names, colours, layers and units.
+//! Only records are truth; everything else (patches, trimming structures, GPU ranges) is derived.
+
+use serde::{Deserialize, Serialize};
+
+use crate::kernel::nurbs::{NurbsCurve2, NurbsSurface};
+
+/// A whole model as read from one file or made by the program.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct ModelRecord {
+    /// Name to show (file name or product name).
+    pub name: String,
+    /// Unit of every length.
+    pub unit: LengthUnit,
+    /// Parts (bodies, groups, shells); a face names its part by position.
+    pub parts: Vec<PartRecord>,
+    /// Faces in file order.
+    pub faces: Vec<FaceRecord>,
+}
+
+/// Unit of length of a model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LengthUnit {
+    /// Short name: `mm`, `in`, `m`, ...
+    pub name: String,
+    /// Millimetres in one unit.
+    pub millimetres: f64,
+}
+
+impl Default for LengthUnit {
+    fn default() -> Self {
+        Self { name: "mm".into(), millimetres: 1.0 }
+    }
+}
+
+/// A named group of faces.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct PartRecord {
+    /// Name to show.
+    pub name: String,
+    /// Position of the part that holds this one.
+    pub parent: Option<usize>,
+}
+
+/// One trimmed surface.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FaceRecord {
+    /// Name from the file, if it has one.
+    pub name: Option<String>,
+    /// Where it came from.
+    pub source: Option<SourceRecord>,
+    /// Linear RGB in 0..=1.
+    pub colour: Option<[f32; 3]>,
+    /// Layer (IGES level) number.
+    pub layer: Option<i32>,
+    /// Position of its part in [`ModelRecord::parts`].
+    pub part: Option<usize>,
+    /// The untrimmed surface; its parameters are the face's native (u, v).
+    pub surface: NurbsSurface,
+    /// Trim loops in native (u, v). None at all: the whole domain of the surface.
+    pub loops: Vec<LoopRecord>,
+    /// Whether the face's normal is opposite to `du x dv`.
+    pub reversed: bool,
+}
+
+/// The entity of a file that a face was made from.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SourceRecord {
+    /// Entity type number or name, `144` say.
+    pub entity: String,
+    /// Number that finds it in the file: the directory-entry sequence number for IGES.
+    pub id: u64,
+}
+
+/// What a loop is said to be by its file. Not trusted for drawing: nesting decides.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LoopRole {
+    /// Bounds the face from outside.
+    Outer,
+    /// Bounds a hole (or an island in a hole).
+    Inner,
+    /// The file does not say.
+    #[default]
+    Unknown,
+}
+
+/// One closed trim loop: curves end to start, in order, each running in the loop's direction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LoopRecord {
+    /// What the file says it is.
+    pub role: LoopRole,
+    /// Pcurves in native (u, v).
+    pub curves: Vec<NurbsCurve2>,
+}

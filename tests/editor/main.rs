@@ -1,0 +1,1 @@
+//! Headless and windowed tests of the editor.

@@ -1,0 +1,1 @@
+//! Identities and properties of the geometry kernel.

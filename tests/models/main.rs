@@ -1,0 +1,1 @@
+//! Real CAD files against independent ground truth.

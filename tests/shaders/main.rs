@@ -1,0 +1,1 @@
+//! WGSL against the CPU twins and the f64 kernel.
