@@ -1,7 +1,11 @@
 //! Rational Bezier curves and patches: the pieces that everything downstream works on.
 
+pub mod bernstein;
 pub mod curve;
+pub mod normal_cone;
 pub mod patch;
+pub mod subdivision;
 
 pub use curve::{BezierCurve, BezierCurve2, BezierCurve3};
-pub use patch::BezierPatch;
+pub use normal_cone::NormalCone;
+pub use patch::{BezierPatch, Tangents};

@@ -1,12 +1,14 @@
 //! Non-uniform rational B-splines of any degree: knot vectors, curves and surfaces.
 
 pub mod curve;
+pub mod decomposition;
 pub mod knots;
+mod spline_map;
 pub mod surface;
 
 pub use curve::{NurbsCurve, NurbsCurve2, NurbsCurve3};
 pub use knots::{KnotError, KnotVector};
-pub use surface::NurbsSurface;
+pub use surface::{NurbsSurface, SurfaceJet};
 
 /// Why control data do not form a NURBS curve or surface.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
