@@ -1,4 +1,52 @@
-//! (being built)
-pub fn run() -> std::process::ExitCode {
-    std::process::ExitCode::SUCCESS
+//! The program: parses the command line, runs one command, turns a failure into a message and an
+//! exit code. Each command is one file, and each is a thin shell around a documented function of
+//! the library.
+
+pub mod arguments;
+pub mod bench;
+pub mod classify;
+pub mod edit;
+pub mod failure;
+pub mod info;
+pub mod output;
+pub mod progress;
+pub mod render;
+pub mod source;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::{Arguments, Command};
+use failure::Failure;
+
+/// Runs the program with the process's arguments; the exit code is that of `hairline --help`.
+pub fn run() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version go to standard output, where a closed pipe is no failure.
+            let _ = error.print();
+            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+        }
+    };
+    match dispatch(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            if !matches!(failure, Failure::Closed) {
+                eprintln!("hairline: error: {failure}");
+            }
+            ExitCode::from(failure.exit_code())
+        }
+    }
+}
+
+fn dispatch(arguments: &Arguments) -> Result<(), Failure> {
+    match &arguments.command {
+        None => edit::run(&arguments.files, arguments.demo),
+        Some(Command::Render(arguments)) => render::run(arguments),
+        Some(Command::Info(arguments)) => info::run(arguments),
+        Some(Command::Classify(arguments)) => classify::run(arguments),
+        Some(Command::Bench(arguments)) => bench::run(arguments),
+    }
 }

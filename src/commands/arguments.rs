@@ -1,0 +1,285 @@
+//! The command line as data: every sub-command, flag, default and help text.
+//!
+//! Parsing is clap's; the small value types (`Size`, `View`, ...) check their own syntax so that a
+//! wrong value is refused before any file is opened.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::kernel::view::StandardView;
+
+const EXAMPLES: &str = "\
+Examples:
+  hairline                              open the editor on the built-in demo scene
+  hairline part.igs bracket.iges        open the editor on two files
+  hairline render part.igs -o part.png --view top --samples 16
+  hairline info part.igs --json | jq '.faces[0]'
+  printf '1 0.5 0.5\\n' | hairline classify part.igs
+  hairline bench classify
+
+FILE may be the word `demo` for the built-in scene (`./demo` for a file of that name).
+
+Exit codes:
+  0  done (a reader that closes the pipe early, `| head`, is no error)
+  1  the result could not be written or worked out
+  2  wrong usage or bad input: unknown flag, missing or broken file, bad line
+  3  the machine or the build lacks something: no display, no graphics driver, no editor";
+
+/// What the user typed.
+#[derive(Debug, Parser)]
+#[command(
+    name = "hairline",
+    version,
+    about = "Exact viewer and inspector for trimmed NURBS: every pixel is a ray cast, no triangles",
+    long_about = "Hairline opens CAD exchange files (IGES) and draws their trimmed NURBS surfaces exactly: every \
+                  pixel is a ray cast against the rational surface and classified against the rational trim \
+                  curves. Without a sub-command it opens the editor.",
+    after_help = EXAMPLES,
+    args_conflicts_with_subcommands = true
+)]
+pub struct Arguments {
+    /// What to do instead of opening the editor.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// Files to open in the editor; none: the built-in demo scene.
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Open the built-in demo scene.
+    #[arg(long)]
+    pub demo: bool,
+}
+
+/// The headless sub-commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Draw a model into a PNG file.
+    Render(RenderArguments),
+    /// Tell what is in a model: counts, degrees, areas, memory, import report.
+    Info(InfoArguments),
+    /// Classify points `face u v` from standard input against the trims: in, out or on.
+    Classify(ClassifyArguments),
+    /// Measure speed and print tables.
+    Bench(BenchArguments),
+}
+
+/// `hairline render`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "\
+Examples:
+  hairline render part.igs -o part.png
+  hairline render part.igs -o top.png --size 1920x1080 --view top --mode faces --samples 16
+  hairline render part.igs -o hole.png --view fit:17 --mode uv --backend cpu
+  hairline render demo -o demo.png
+
+The picture is written whole or not at all. Without --backend the graphics driver (Vulkan) draws
+if there is one, else the processor does; both give the same picture.")]
+pub struct RenderArguments {
+    /// Model to draw, or `demo`.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// PNG file to write.
+    #[arg(short, long, value_name = "PNG")]
+    pub output: PathBuf,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1024x768")]
+    pub size: Size,
+    /// Where to look from: iso, front, back, left, right, top, bottom, or fit:FACE to face one face
+    /// (numbered from 1).
+    #[arg(long, value_name = "VIEW", default_value = "iso")]
+    pub view: View,
+    /// What the colours show.
+    #[arg(long, value_enum, default_value_t = Mode::Shaded)]
+    pub mode: Mode,
+    /// Samples per pixel.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=256))]
+    pub samples: u32,
+    /// Who draws; without it the graphics driver if there is one, else the processor.
+    #[arg(long, value_enum)]
+    pub backend: Option<Backend>,
+}
+
+/// `hairline info`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "\
+Examples:
+  hairline info part.igs
+  hairline info part.igs --json | jq '[.faces[].area] | add'
+
+Lengths and areas are in the units of the file, which are named. Faces are numbered from 1 in file
+order. JSON fields of each of faces[]: index, source, degree_u, degree_v, loops, curves, area,
+bbox [xmin ymin zmin xmax ymax zmax], uv_box [umin vmin umax vmax].")]
+pub struct InfoArguments {
+    /// Model to describe, or `demo`.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Print everything as one JSON object.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `hairline classify`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "\
+Examples:
+  printf '1 0.5 0.5\\n2 10 -3.25\\n' | hairline classify part.igs
+  hairline classify part.igs < points.txt > answers.txt
+
+Each input line is `face u v`: the number of a face (from 1) and native surface parameters, parted
+by blanks, tabs or commas. Each gives one line in the same order: `in`, `out`, or `on` for a point
+on a trim curve (within 1e-9 of the size of the face's parameter box). Empty lines and lines that
+start with # are passed over without an answer. The first bad line (not three numbers, no such
+face) stops the run with its line number and exit code 2; answers before it have been printed.")]
+pub struct ClassifyArguments {
+    /// Model to classify against, or `demo`.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+}
+
+/// `hairline bench`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "\
+Examples:
+  hairline bench
+  hairline bench classify
+  hairline bench raycast part.igs
+
+Times are of this machine and this moment; compare the ratios, which are taken in one run.")]
+pub struct BenchArguments {
+    /// Which table; none: all of them.
+    #[arg(value_enum, value_name = "TABLE")]
+    pub table: Option<Table>,
+    /// Models to measure as well (or instead of the demo scene); `demo` for the built-in one.
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+}
+
+/// The tables of `hairline bench`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Table {
+    /// Point classification: ns per point for each structure and for its rivals.
+    Classify,
+    /// Building the trimming structures: time and bytes per segment.
+    Build,
+    /// Ray casting: time per frame and per fragment.
+    Raycast,
+    /// Ray casting against the f64 oracle: missed hits.
+    Misses,
+}
+
+/// What the colours of a picture show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Mode {
+    /// Lit surfaces in their own colours.
+    Shaded,
+    /// A colour for each face.
+    Faces,
+    /// The surface parameters.
+    Uv,
+    /// Number of curve evaluations per sample.
+    Heat,
+    /// Lit surfaces with their trims ignored.
+    Untrimmed,
+}
+
+/// Who draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Backend {
+    /// The graphics driver, by Vulkan.
+    Gpu,
+    /// The processor.
+    Cpu,
+}
+
+/// Where to look from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum View {
+    /// The whole model from a standard direction.
+    Standard(StandardView),
+    /// One face, seen along its normal; numbered from 1.
+    Fit(usize),
+}
+
+impl FromStr for View {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if let Some(face) = text.strip_prefix("fit:") {
+            return match face.parse() {
+                Ok(number) if number > 0 => Ok(Self::Fit(number)),
+                _ => Err(format!("`{face}` is not a face number (1, 2, ...)")),
+            };
+        }
+        Ok(Self::Standard(match text {
+            "iso" => StandardView::Iso,
+            "front" => StandardView::Front,
+            "back" => StandardView::Back,
+            "left" => StandardView::Left,
+            "right" => StandardView::Right,
+            "top" => StandardView::Top,
+            "bottom" => StandardView::Bottom,
+            _ => return Err("expected iso, front, back, left, right, top, bottom or fit:FACE".into()),
+        }))
+    }
+}
+
+/// Size of a picture in pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Size {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl Size {
+    /// Longest side: the limit of common graphics drivers.
+    pub const LIMIT: u32 = 16_384;
+}
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let side = |s: &str| s.parse::<u32>().ok().filter(|n| (1..=Self::LIMIT).contains(n));
+        text.split_once(['x', 'X'])
+            .and_then(|(w, h)| Some(Self { width: side(w)?, height: side(h)? }))
+            .ok_or_else(|| format!("expected WIDTHxHEIGHT, both from 1 to {}, such as 1024x768", Self::LIMIT))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definition_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn files_open_the_editor_and_sub_commands_do_not_take_them() {
+        let plain = Arguments::try_parse_from(["hairline", "a.igs", "b.igs"]).expect("two files");
+        assert_eq!(plain.files.len(), 2);
+        assert!(plain.command.is_none());
+        assert!(
+            Arguments::try_parse_from(["hairline", "a.igs", "render", "b.igs"])
+                .is_ok_and(|a| a.command.is_none())
+        );
+        assert!(Arguments::try_parse_from(["hairline", "render", "b.igs"]).is_err(), "-o is needed");
+    }
+
+    #[test]
+    fn sizes_and_views_refuse_nonsense() {
+        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
+        for bad in ["", "640", "0x5", "5x0", "-1x5", "99999x1", "axb", "1x2x3"] {
+            assert!(bad.parse::<Size>().is_err(), "{bad}");
+        }
+        assert_eq!("fit:12".parse(), Ok(View::Fit(12)));
+        for bad in ["fit:", "fit:0", "fit:-1", "fit:x", "Top", ""] {
+            assert!(bad.parse::<View>().is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! `hairline [FILE...]`: opens the editor.
+
+use std::path::PathBuf;
+
+use super::failure::Failure;
+use super::source;
+
+/// Opens the editor on `files`, or on the demo scene when there are none.
+///
+/// # Errors
+/// The build has no editor, or the machine has no display or graphics driver.
+pub fn run(files: &[PathBuf], demo: bool) -> Result<(), Failure> {
+    let files = source::or_demo(files, demo);
+    open_editor(&files)
+}
+
+#[cfg(feature = "editor")]
+fn open_editor(_files: &[PathBuf]) -> Result<(), Failure> {
+    Err(Failure::Lacking { reason: "the editor is not there yet".into() })
+}
+
+#[cfg(not(feature = "editor"))]
+fn open_editor(_files: &[PathBuf]) -> Result<(), Failure> {
+    Err(Failure::Lacking {
+        reason: "this program was built without the editor; build it with `cargo build` (feature `editor`), \
+                 or use a sub-command: hairline --help"
+            .into(),
+    })
+}

@@ -1,0 +1,85 @@
+//! Opens a model for a command: a file on disk or the built-in demo scene.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::failure::{Failure, plain};
+use crate::exchange::report::{ImportReport, Severity};
+use crate::scene::demo;
+use crate::scene::records::ModelRecord;
+
+/// A model with the report of its import.
+#[derive(Debug, Clone)]
+pub struct Opened {
+    /// The model.
+    pub model: ModelRecord,
+    /// What became of the entities of its file.
+    pub report: ImportReport,
+}
+
+/// Reads the model at `path`; the path `demo` is the built-in scene. `progress` is told the part done, 0 to 1.
+///
+/// # Errors
+/// The file is missing, unreadable, or no model in a format that is understood.
+pub fn open(path: &Path, progress: &dyn Fn(f64)) -> Result<Opened, Failure> {
+    if path == Path::new("demo") {
+        let report = ImportReport { origin: "built-in demo scene".into(), ..ImportReport::default() };
+        return Ok(Opened { model: demo::model(), report });
+    }
+    let fail = |reason: String| Failure::Input { path: path.into(), reason };
+    let metadata = fs::metadata(path).map_err(|e| fail(plain(&e)))?;
+    if metadata.is_dir() {
+        return Err(fail("it is a directory".into()));
+    }
+    let bytes = fs::read(path).map_err(|e| fail(plain(&e)))?;
+    if bytes.is_empty() {
+        return Err(fail("the file is empty (0 bytes)".into()));
+    }
+    if let Some(format) = foreign_format(&bytes) {
+        return Err(fail(format!("{format} files are not supported; IGES (.igs, .iges) files are")));
+    }
+    progress(0.0);
+    Err(fail("IGES files are not read yet".into()))
+}
+
+/// Names the format of a file that is certainly not IGES.
+fn foreign_format(bytes: &[u8]) -> Option<&'static str> {
+    let starts: [(&[u8], &str); 8] = [
+        (b"ISO-10303-21", "STEP"),
+        (b"3D Geometry File Format", "Rhino 3DM"),
+        (b"\x89PNG", "PNG"),
+        (b"solid ", "STL"),
+        (b"%PDF", "PDF"),
+        (b"PK\x03\x04", "ZIP"),
+        (b"\x1f\x8b", "gzip"),
+        (b"\x7fELF", "program"),
+    ];
+    starts.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, format)| *format)
+}
+
+/// One line for standard error on what an import lost or repaired; `None` when there is nothing to say.
+pub fn remarks_line(path: &Path, report: &ImportReport) -> Option<String> {
+    let count = |severity| report.remarks.iter().filter(|r| r.severity == severity).count();
+    let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
+    let first = report.remarks.iter().max_by_key(|r| (r.severity, std::cmp::Reverse(r.line)))?;
+    (errors + warnings > 0).then(|| {
+        let place = match (first.entity.is_empty(), first.line) {
+            (true, 0) => String::new(),
+            (true, line) => format!("line {line}: "),
+            (false, _) => format!("entity {} at D{}: ", first.entity, first.id),
+        };
+        format!(
+            "{}: {errors} entities skipped, {warnings} repaired; the first: {place}{}",
+            path.display(),
+            first.message
+        )
+    })
+}
+
+/// Replaces the flag `--demo` and an empty list of files by the demo scene.
+pub fn or_demo(files: &[PathBuf], demo: bool) -> Vec<PathBuf> {
+    if demo || files.is_empty() {
+        return std::iter::once(PathBuf::from("demo")).chain(files.iter().cloned()).collect();
+    }
+    files.to_vec()
+}
