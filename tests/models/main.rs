@@ -1,1 +1,3 @@
 //! Real CAD files against independent ground truth.
+
+mod import;
