@@ -1,1 +1,4 @@
 //! Identities and properties of the geometry kernel.
+
+mod splines;
+mod zoo;

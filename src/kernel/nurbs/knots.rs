@@ -48,6 +48,24 @@ pub enum KnotError {
         /// Last parameter.
         end: f64,
     },
+    /// A parameter lies outside the domain.
+    #[error("parameter {value} is outside the domain from {start} to {end}")]
+    OutsideDomain {
+        /// The parameter.
+        value: f64,
+        /// First parameter.
+        start: f64,
+        /// Last parameter.
+        end: f64,
+    },
+    /// An inserted knot would repeat too often.
+    #[error("knot {value} would repeat more than {most} times")]
+    Multiplicity {
+        /// The knot.
+        value: f64,
+        /// Most repeats allowed.
+        most: usize,
+    },
 }
 
 /// A sorted, finite, flat knot vector (multiplicities written out) with its degree. Need not be clamped.

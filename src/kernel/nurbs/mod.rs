@@ -2,12 +2,18 @@
 
 pub mod curve;
 pub mod decomposition;
+pub mod editing;
+pub mod elevation;
 pub mod knots;
+pub mod refinement;
+pub mod shape;
 mod spline_map;
 pub mod surface;
 
 pub use curve::{NurbsCurve, NurbsCurve2, NurbsCurve3};
+pub use editing::Direction;
 pub use knots::{KnotError, KnotVector};
+pub use shape::DegenerateEdges;
 pub use surface::{NurbsSurface, SurfaceJet};
 
 /// Why control data do not form a NURBS curve or surface.
