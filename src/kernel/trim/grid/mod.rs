@@ -1,0 +1,66 @@
+//! The parity grid: a uniform grid over the unit square in which every cell holds one winding number and a
+//! short list of the segments that touch it. One read answers for an empty cell; the answer equals the
+//! sum over all segments bit for bit at every resolution.
+
+pub mod build;
+pub mod classify;
+pub mod frame;
+pub mod layout;
+mod refine;
+pub mod span;
+
+pub use build::GridOptions;
+pub use classify::classify;
+pub use layout::{GridHeader, GridView};
+
+use glam::Vec2;
+
+use super::TrimStructure;
+use super::pack::PackedSegments;
+use super::segment::SegmentSet;
+use super::tally::Counters;
+
+/// A face's grid with its segment records: all that a query reads.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ParityGrid {
+    /// Header, all bases 0.
+    pub header: GridHeader,
+    /// Cell words.
+    pub cells: Vec<u32>,
+    /// Entry words.
+    pub entries: Vec<u32>,
+    /// Segment records, 16-byte units.
+    pub data: Vec<[u32; 4]>,
+}
+
+impl ParityGrid {
+    /// Builds the grid of a face from its segments and their records.
+    pub fn new(set: &SegmentSet, packed: &PackedSegments, options: &GridOptions) -> Self {
+        let built = build::build(set, packed, options);
+        Self { header: built.header, cells: built.cells, entries: built.entries, data: packed.data.clone() }
+    }
+
+    /// Builds it anew after an edit.
+    pub fn rebuild(&mut self, set: &SegmentSet, packed: &PackedSegments, options: &GridOptions) {
+        *self = Self::new(set, packed, options);
+    }
+
+    /// What [`classify`] reads.
+    pub fn view(&self) -> GridView<'_> {
+        GridView { header: self.header, cells: &self.cells, entries: &self.entries, data: &self.data }
+    }
+}
+
+impl TrimStructure for ParityGrid {
+    fn classify(&self, uv: Vec2) -> bool {
+        classify(&self.view(), uv.x, uv.y, &mut ())
+    }
+
+    fn classify_counted(&self, uv: Vec2, counters: &mut Counters) -> bool {
+        classify(&self.view(), uv.x, uv.y, counters)
+    }
+
+    fn memory_bytes(&self) -> usize {
+        size_of::<GridHeader>() + 4 * (self.cells.len() + self.entries.len()) + 16 * self.data.len()
+    }
+}
