@@ -1,9 +1,11 @@
 //! Opens a model for a command: a file on disk or the built-in demo scene.
 
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, plain};
+use crate::exchange::iges;
 use crate::exchange::report::{ImportReport, Severity};
 use crate::scene::demo;
 use crate::scene::records::ModelRecord;
@@ -38,8 +40,15 @@ pub fn open(path: &Path, progress: &dyn Fn(f64)) -> Result<Opened, Failure> {
     if let Some(format) = foreign_format(&bytes) {
         return Err(fail(format!("{format} files are not supported; IGES (.igs, .iges) files are")));
     }
-    progress(0.0);
-    Err(fail("IGES files are not read yet".into()))
+    let mut told = |at: iges::Progress| {
+        progress(at.done as f64 / at.total.max(1) as f64);
+        ControlFlow::Continue(())
+    };
+    let (mut model, report) = iges::read_with(&bytes, &mut told).map_err(|e| fail(e.to_string()))?;
+    if let Some(stem) = path.file_stem() {
+        model.name = stem.to_string_lossy().into_owned();
+    }
+    Ok(Opened { model, report })
 }
 
 /// Names the format of a file that is certainly not IGES.

@@ -1,13 +1,18 @@
-//! The built-in demo scene, made by code alone: a puzzle ball of nested shells on a plate with a
-//! sunflower of holes.
+//! The built-in demo scene, made by code alone: a puzzle ball of nested shells on a turned foot,
+//! before a sail with the program's name cut out of it, on a plate with a sunflower of holes.
 //!
 //! It shows what the program is for: exact trims on high-degree and rational surfaces, holes in
 //! holes, seams and poles. Lengths are millimetres; z is up. Everything is deterministic.
 
 mod assembly;
+mod coin;
+mod lettering;
 mod outline;
+mod pedestal;
 mod plate;
 mod puzzle_ball;
+mod ring;
+mod ruled;
 mod sail;
 mod shape;
 
@@ -19,8 +24,11 @@ use super::records::ModelRecord;
 pub fn model() -> ModelRecord {
     let mut assembly = assembly::Assembly::new("Demo scene");
     plate::add(&mut assembly);
+    pedestal::add(&mut assembly);
     puzzle_ball::add(&mut assembly);
     sail::add(&mut assembly);
+    coin::add(&mut assembly);
+    ring::add(&mut assembly);
     assembly.finish()
 }
 
@@ -29,7 +37,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_loop_is_closed_and_every_face_has_a_name_a_part_and_a_colour() {
+    fn loops_are_closed_and_inside_and_faces_have_names_parts_and_colours() {
         let model = model();
         assert!(!model.faces.is_empty());
         for face in &model.faces {
@@ -37,6 +45,14 @@ mod tests {
             assert!(face.part.is_some_and(|p| p < model.parts.len()));
             for trim in &face.loops {
                 for (i, curve) in trim.curves.iter().enumerate() {
+                    let ((u0, u1), (v0, v1)) =
+                        (face.surface.knots_u().domain(), face.surface.knots_v().domain());
+                    let (a, b) = curve.domain();
+                    for p in (0..=20).map(|k| curve.point(a + (b - a) * k as f64 / 20.0)) {
+                        // The torus is periodic in both directions, so its loops may run past its knots.
+                        let inside = p.x >= u0 && p.x <= u1 && p.y >= v0 && p.y <= v1;
+                        assert!(inside || face.name.as_deref() == Some("Ring"), "{:?} at {p}", face.name);
+                    }
                     let next = &trim.curves[(i + 1) % trim.curves.len()];
                     assert_eq!(curve.points().last(), next.points().first(), "{:?}", face.name);
                 }
