@@ -1,4 +1,5 @@
 //! Identities and properties of the geometry kernel.
 
+mod raycast;
 mod splines;
 mod zoo;

@@ -104,3 +104,43 @@ pub fn samples(knots: &KnotVector, per_span: usize) -> Vec<f64> {
     };
     knots.spans().flat_map(inside).collect()
 }
+
+/// The surface of revolution about z of a profile (r, z), a full turn in u from +x, exact.
+pub fn revolution(profile: &NurbsCurve2) -> NurbsSurface {
+    let knots = KnotVector::new(2, vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0]);
+    let half = 0.5f64.sqrt();
+    let (mut points, mut weights) = (Vec::new(), Vec::new());
+    let corners = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)];
+    for (k, (x, y)) in corners.into_iter().enumerate() {
+        for (p, w) in profile.points().iter().zip(profile.weights()) {
+            points.push(DVec3::new(p.x * f64::from(x), p.x * f64::from(y), p.y));
+            weights.push(w * if k % 2 == 1 { half } else { 1.0 });
+        }
+    }
+    NurbsSurface::new(knots.expect("sorted"), profile.knots().clone(), points, weights).expect("counts fit")
+}
+
+/// `quarters` quarter arcs of a circle about `centre`, counter-clockwise from its lowest point.
+pub fn arc(centre: DVec2, radius: f64, quarters: usize) -> NurbsCurve2 {
+    let mut knots = vec![0.0; 3];
+    (1..quarters).for_each(|k| knots.extend([k as f64; 2]));
+    knots.extend([quarters as f64; 3]);
+    let offsets = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1)];
+    let points = offsets[..=2 * quarters]
+        .iter()
+        .map(|(x, y)| centre + radius * DVec2::new(f64::from(*x), f64::from(*y)))
+        .collect();
+    let half = 0.5f64.sqrt();
+    let weights = (0..=2 * quarters).map(|k| if k % 2 == 1 { half } else { 1.0 }).collect();
+    NurbsCurve2::new(KnotVector::new(2, knots).expect("sorted"), points, weights).expect("counts fit")
+}
+
+/// The unit sphere, poles at +-z.
+pub fn sphere() -> NurbsSurface {
+    revolution(&arc(DVec2::ZERO, 1.0, 2))
+}
+
+/// A torus about z.
+pub fn torus(major: f64, minor: f64) -> NurbsSurface {
+    revolution(&arc(DVec2::new(major, 0.0), minor, 4))
+}

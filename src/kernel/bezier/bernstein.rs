@@ -48,22 +48,31 @@ pub fn values(degree: usize, t: f64, values: &mut [f64]) {
     }
 }
 
-/// Values and first two derivatives at `t`: `result[k][i]` is the `k`-th derivative of polynomial `i`.
+/// Values and first derivatives at `t`: `result[k][i]` is the `k`-th derivative of polynomial `i`.
 /// `N` must exceed `degree`.
-pub fn jet<const N: usize>(degree: usize, t: f64) -> [[f64; N]; 3] {
-    let mut result = [[0.0; N]; 3];
+pub fn tangent<const N: usize>(degree: usize, t: f64) -> [[f64; N]; 2] {
+    let mut result = [[0.0; N]; 2];
     values(degree, t, &mut result[0]);
-    let n = degree as f64;
-    let mut lower = [0.0; N];
     if degree >= 1 {
+        let mut lower = [0.0; N];
         values(degree - 1, t, &mut lower);
         for i in 0..=degree {
             let left = if i > 0 { lower[i - 1] } else { 0.0 };
             let right = if i < degree { lower[i] } else { 0.0 };
-            result[1][i] = n * (left - right);
+            result[1][i] = degree as f64 * (left - right);
         }
     }
+    result
+}
+
+/// Values and first two derivatives at `t`: `result[k][i]` is the `k`-th derivative of polynomial `i`.
+/// `N` must exceed `degree`.
+pub fn jet<const N: usize>(degree: usize, t: f64) -> [[f64; N]; 3] {
+    let [value, first] = tangent(degree, t);
+    let mut result = [value, first, [0.0; N]];
+    let n = degree as f64;
     if degree >= 2 {
+        let mut lower = [0.0; N];
         values(degree - 2, t, &mut lower);
         let factor = n * (n - 1.0);
         for i in 0..=degree {

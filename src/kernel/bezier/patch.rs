@@ -92,7 +92,8 @@ impl BezierPatch {
     }
 
     fn tangents_sized<const N: usize>(&self, u: f64, v: f64) -> Tangents {
-        let (bu, bv) = (bernstein::jet::<N>(self.degree_u, u), bernstein::jet::<N>(self.degree_v, v));
+        let bu = bernstein::tangent::<N>(self.degree_u, u);
+        let bv = bernstein::tangent::<N>(self.degree_v, v);
         let mut h = [(DVec3::ZERO, 0.0); 3];
         for (i, (points, weights)) in self.rows().enumerate() {
             let mut row = [(DVec3::ZERO, 0.0); 2];
