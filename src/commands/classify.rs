@@ -5,31 +5,13 @@
 
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
 
+use rayon::prelude::*;
+
 use super::arguments::ClassifyArguments;
 use super::failure::{Failure, plain};
 use super::progress::Progress;
 use super::source;
-
-/// Where a point lies with respect to the trims of a face.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// On the visible part of the face.
-    In,
-    /// On a part that is cut away.
-    Out,
-    /// On a trim curve.
-    On,
-}
-
-impl Side {
-    fn line(self) -> &'static [u8] {
-        match self {
-            Self::In => b"in\n",
-            Self::Out => b"out\n",
-            Self::On => b"on\n",
-        }
-    }
-}
+use crate::kernel::face::{Face, Side};
 
 /// Answers standard input on standard output.
 ///
@@ -39,8 +21,16 @@ pub fn run(arguments: &ClassifyArguments) -> Result<(), Failure> {
     let progress = Progress::start(format!("reading {}", arguments.file.display()));
     let opened = source::open(&arguments.file, &|part| progress.set(part))?;
     drop(progress);
-    let count = opened.model.faces.len();
-    answer(io::stdin().lock(), io::stdout().lock(), count, |_, _, _| Side::Out)
+    let faces = opened.model.faces.par_iter().enumerate().map(|(index, record)| {
+        Face::derive(record).map_err(|e| Failure::Input {
+            path: arguments.file.clone(),
+            reason: format!("face {}: {e}", index + 1),
+        })
+    });
+    let faces = faces.collect::<Result<Vec<_>, _>>()?;
+    answer(io::stdin().lock(), io::stdout().lock(), faces.len(), |face, u, v| {
+        faces[face].classify_native(u, v)
+    })
 }
 
 /// Reads `face u v` lines from `input` and writes `classify(face - 1, u, v)` for each to `output`.
@@ -76,10 +66,18 @@ pub fn answer(
             Failure::Line { line: number, reason }
         })?;
         if let Some((face, u, v)) = query {
-            output.write_all(classify(face, u, v).line()).map_err(|e| Failure::stdout(&e))?;
+            output.write_all(word(classify(face, u, v))).map_err(|e| Failure::stdout(&e))?;
         }
     }
     output.flush().map_err(|e| Failure::stdout(&e))
+}
+
+fn word(side: Side) -> &'static [u8] {
+    match side {
+        Side::In => b"in\n",
+        Side::Out => b"out\n",
+        Side::On => b"on\n",
+    }
 }
 
 const LONGEST_LINE: u64 = 4096;

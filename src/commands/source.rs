@@ -37,9 +37,6 @@ pub fn open(path: &Path, progress: &dyn Fn(f64)) -> Result<Opened, Failure> {
     if bytes.is_empty() {
         return Err(fail("the file is empty (0 bytes)".into()));
     }
-    if let Some(format) = foreign_format(&bytes) {
-        return Err(fail(format!("{format} files are not supported; IGES (.igs, .iges) files are")));
-    }
     let mut told = |at: iges::Progress| {
         progress(at.done as f64 / at.total.max(1) as f64);
         ControlFlow::Continue(())
@@ -49,21 +46,6 @@ pub fn open(path: &Path, progress: &dyn Fn(f64)) -> Result<Opened, Failure> {
         model.name = stem.to_string_lossy().into_owned();
     }
     Ok(Opened { model, report })
-}
-
-/// Names the format of a file that is certainly not IGES.
-fn foreign_format(bytes: &[u8]) -> Option<&'static str> {
-    let starts: [(&[u8], &str); 8] = [
-        (b"ISO-10303-21", "STEP"),
-        (b"3D Geometry File Format", "Rhino 3DM"),
-        (b"\x89PNG", "PNG"),
-        (b"solid ", "STL"),
-        (b"%PDF", "PDF"),
-        (b"PK\x03\x04", "ZIP"),
-        (b"\x1f\x8b", "gzip"),
-        (b"\x7fELF", "program"),
-    ];
-    starts.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, format)| *format)
 }
 
 /// One line for standard error on what an import lost or repaired; `None` when there is nothing to say.
