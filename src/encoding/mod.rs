@@ -1,1 +1,16 @@
-//! (being built)
+//! The `f32` layout of what the GPU sees: cells, control points, trims, faces, cameras. No GPU in here.
+
+pub mod arena;
+pub mod cell;
+pub mod face;
+pub mod look;
+pub mod options;
+pub mod scene;
+pub mod subdivision;
+pub mod view;
+
+pub use face::FaceHeader;
+pub use look::Look;
+pub use options::{DisplayMode, EdgeStyle, Image, RenderOptions, Theme};
+pub use scene::{FaceShape, FaceSlot, PackedScene};
+pub use view::{DepthRange, View};

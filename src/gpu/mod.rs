@@ -1,1 +1,59 @@
-//! (being built)
+//! The WGSL renderer on plain `wgpu`: used by the command line on a device of its own and by the editor
+//! inside Bevy's render world. Knows nothing of Bevy.
+//!
+//! A picture takes three steps. **Cast** draws the boxes of the cells and casts a ray per pixel into a
+//! visibility buffer (face, u, v, normal) with depth. **Shade** turns that into colours and adds them to
+//! a sum, once per sample. **Present** divides the sum and puts it, with depth, into any target.
+//! Hovering, selection, modes and edges change only the last two.
+
+pub mod buffers;
+pub mod context;
+pub mod picture;
+pub mod pipelines;
+pub mod renderer;
+pub mod shaders;
+pub mod targets;
+
+pub use buffers::Uploaded;
+pub use context::Context;
+pub use picture::render_image;
+pub use renderer::{Renderer, Sample};
+
+/// Why the GPU cannot draw.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum GpuError {
+    /// No usable driver.
+    #[error(
+        "no Vulkan driver could be opened ({reason}); install one (on Debian: mesa-vulkan-drivers) or use the CPU renderer"
+    )]
+    NoDriver {
+        /// What the loader says.
+        reason: String,
+    },
+    /// An array does not fit.
+    #[error("the scene's {what} take {bytes} bytes; this device can bind {limit}")]
+    TooLarge {
+        /// Which array.
+        what: &'static str,
+        /// Bytes needed.
+        bytes: u64,
+        /// Bytes the device can bind.
+        limit: u64,
+    },
+    /// A picture does not fit.
+    #[error("a picture of {width} x {height} is larger than this device draws ({limit} pixels each way)")]
+    PictureTooLarge {
+        /// Width asked for.
+        width: u32,
+        /// Height asked for.
+        height: u32,
+        /// Largest width or height.
+        limit: u32,
+    },
+    /// The device stopped working.
+    #[error("the graphics device was lost: {reason}")]
+    Lost {
+        /// What the driver says.
+        reason: String,
+    },
+}

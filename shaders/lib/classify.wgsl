@@ -1,0 +1,195 @@
+// Whether a point is inside the trim loops: the parity grid. Twin: kernel::trim::grid::classify and
+// kernel::trim::record, statement by statement.
+// The pass supplies load_trim_cell(i), load_trim_entry(i) -> u32 and load_trim_data(i) -> vec4f.
+
+const GRID_NON_ZERO: u32 = 1u;
+const CELL_REFINED: u32 = 128u;
+const ENTRY_LO: u32 = 1u;
+const ENTRY_HI: u32 = 2u;
+const ENTRY_DOWN: u32 = 4u;
+const ENTRY_RATIONAL: u32 = 8u;
+const MAX_LEVELS: u32 = 4u;
+const MAX_HALVINGS: u32 = 20u;
+const MAX_ENTRIES: u32 = 4096u;
+const BORDER: f32 = 4.8e-7;
+
+struct Verdict {
+    inside: bool,
+    evaluations: u32,
+}
+
+struct Crossing {
+    right: bool,
+    evaluations: u32,
+}
+
+fn cross2(a: vec2f, b: vec2f) -> f32 {
+    return a.x * b.y - a.y * b.x;
+}
+
+fn word_of(v: vec4f, index: u32) -> f32 {
+    return select(select(v.w, v.z, index == 2u), select(v.y, v.x, index == 0u), index < 2u);
+}
+
+fn record_word(address: u32, index: u32) -> f32 {
+    return word_of(load_trim_data(address + (index >> 2u)), index & 3u);
+}
+
+// Fat bounds of a polynomial cubic from its scaled inner points.
+fn cubic_bounds(q: vec4f, d: vec2f) -> vec2f {
+    let e0 = q.xy;
+    let e1 = q.zw - q.xy;
+    let e2 = 3.0 * d - q.zw;
+    let a = cross2(e1, e0);
+    let b = cross2(e2, e1);
+    let c = cross2(e2, e0);
+    let least = min(min(min(a, b), min(c - a, c - b)), 0.0);
+    let most = max(max(max(a, b), max(c - a, c - b)), 0.0);
+    return vec2f(-0.2500005 * most, -0.2500005 * least);
+}
+
+fn cubic_point(q: vec4f, d: vec2f, t: f32) -> vec2f {
+    let s = 1.0 - t;
+    return t * (s * (s * q.xy + t * q.zw) + t * t * d);
+}
+
+// Horner's scheme in scaled Bernstein form.
+fn curve_point(address: u32, d: vec2f, degree: u32, rational: bool, t: f32) -> vec2f {
+    let s = 1.0 - t;
+    var power = 1.0;
+    var x = vec2f(0.0);
+    var w = 1.0;
+    var index = 5u;
+    for (var i = 1u; i < degree; i++) {
+        power *= t;
+        x = x * s + power * vec2f(record_word(address, index), record_word(address, index + 1u));
+        index += 2u;
+        if (rational) {
+            w = w * s + power * record_word(address, index);
+            index += 1u;
+        }
+    }
+    power *= t;
+    x = x * s + power * d;
+    if (rational) {
+        w = w * s + power;
+        return x / w;
+    }
+    return x;
+}
+
+// Whether the segment's u at height v is larger than u; ends.y <= v < ends.w.
+fn crossing(address: u32, ends: vec4f, entry: u32, u: f32, v: f32) -> Crossing {
+    if (u < min(ends.x, ends.z)) {
+        return Crossing(true, 0u);
+    }
+    if (u >= max(ends.x, ends.z)) {
+        return Crossing(false, 0u);
+    }
+    let p = vec2f(u, v) - ends.xy;
+    let d = ends.zw - ends.xy;
+    let degree = ((entry >> 4u) & 63u) + 1u;
+    let rational = (entry & ENTRY_RATIONAL) != 0u;
+    var side = cross2(p, d);
+    if (degree == 1u) {
+        return Crossing(side < 0.0, 0u);
+    }
+    let compact = degree == 3u && !rational;
+    let q = load_trim_data(address + 1u);
+    let fat = bitcast<u32>(q.x);
+    let stored = vec2f(bitcast<f32>(fat & 0xffff0000u), bitcast<f32>(fat << 16u));
+    let bounds = select(stored, cubic_bounds(q, d), compact);
+    if (side < bounds.x) {
+        return Crossing(true, 0u);
+    }
+    if (side > bounds.y) {
+        return Crossing(false, 0u);
+    }
+    var a = vec2f(0.0);
+    var b = d;
+    var t = 0.0;
+    var dt = 1.0;
+    var band = 1.0;
+    for (var k = 0u; k < MAX_HALVINGS; k++) {
+        dt *= 0.5;
+        band *= 0.125;
+        var m: vec2f;
+        if (compact) {
+            m = cubic_point(q, d, t + dt);
+        } else {
+            m = curve_point(address, d, degree, rational, t + dt);
+        }
+        m = min(max(m, vec2f(min(a.x, b.x), a.y)), vec2f(max(a.x, b.x), b.y));
+        if (p.y >= m.y) {
+            a = m;
+            t += dt;
+        } else {
+            b = m;
+        }
+        if (p.x < min(a.x, b.x)) {
+            return Crossing(true, k + 1u);
+        }
+        if (p.x >= max(a.x, b.x)) {
+            return Crossing(false, k + 1u);
+        }
+        side = cross2(p - a, b - a);
+        if (side < bounds.x * band) {
+            return Crossing(true, k + 1u);
+        }
+        if (side > bounds.y * band) {
+            return Crossing(false, k + 1u);
+        }
+    }
+    return Crossing(side < 0.0, MAX_HALVINGS);
+}
+
+fn classify(grid: GridHeader, u_in: f32, v_in: f32) -> Verdict {
+    if (grid.columns == 0u || !(min(u_in, v_in) >= -BORDER && max(u_in, v_in) <= 1.0 + BORDER)) {
+        return Verdict(false, 0u);
+    }
+    let u = min(max(u_in, 0.0), BELOW_ONE);
+    let v = min(max(v_in, 0.0), BELOW_ONE);
+    var x = u * grid.scale_u;
+    var y = v * grid.scale_v;
+    var column = min(u32(x), grid.columns - 1u);
+    var row = min(u32(y), grid.rows - 1u);
+    var index = grid.cell_base + row * grid.columns + column;
+    var cell = load_trim_cell(index);
+    for (var level = 1u; level < MAX_LEVELS; level++) {
+        if ((cell & CELL_REFINED) == 0u) {
+            break;
+        }
+        let child = grid.entry_base + (cell >> 8u);
+        let k = load_trim_entry(child + 1u);
+        x = (x - f32(column)) * f32(k);
+        y = (y - f32(row)) * f32(k);
+        column = min(u32(x), k - 1u);
+        row = min(u32(y), k - 1u);
+        index = grid.cell_base + load_trim_entry(child) + row * k + column;
+        cell = load_trim_cell(index);
+    }
+    var winding = bitcast<i32>(cell << 25u) >> 25u;
+    let first = cell >> 8u;
+    let end = load_trim_cell(index + 1u) >> 8u;
+    var evaluations = 0u;
+    for (var e = first; e < min(end, first + MAX_ENTRIES); e++) {
+        let entry = load_trim_entry(grid.entry_base + e);
+        let address = grid.data_base + (entry >> 10u);
+        let ends = load_trim_data(address);
+        var value: bool;
+        if (v < ends.y) {
+            value = (entry & ENTRY_LO) != 0u;
+        } else if (v >= ends.w) {
+            value = (entry & ENTRY_HI) != 0u;
+        } else {
+            let c = crossing(address, ends, entry, u, v);
+            value = c.right;
+            evaluations += c.evaluations;
+        }
+        if (value) {
+            winding += select(1, -1, (entry & ENTRY_DOWN) != 0u);
+        }
+    }
+    let inside = select((winding & 1) != 0, winding != 0, (grid.flags & GRID_NON_ZERO) != 0u);
+    return Verdict(inside, evaluations);
+}

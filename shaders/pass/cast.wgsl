@@ -1,0 +1,150 @@
+// Casts one ray per pixel at the cells whose boxes cover it.
+// Writes (face slot + 1, u, v, normal or counts) and reverse-z depth.
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<storage, read> order: array<u32>;
+@group(0) @binding(2) var<storage, read> cells: array<Cell>;
+@group(0) @binding(3) var<storage, read> points: array<vec4f>;
+@group(0) @binding(4) var<storage, read> faces: array<FaceHeader>;
+
+@group(0) @binding(5) var<storage, read> trim_cells: array<u32>;
+@group(0) @binding(6) var<storage, read> trim_entries: array<u32>;
+@group(0) @binding(7) var<storage, read> trim_data: array<vec4f>;
+
+fn load_point(index: u32) -> vec4f {
+    return points[index];
+}
+
+fn load_trim_cell(index: u32) -> u32 {
+    return trim_cells[index];
+}
+
+fn load_trim_entry(index: u32) -> u32 {
+    return trim_entries[index];
+}
+
+fn load_trim_data(index: u32) -> vec4f {
+    return trim_data[index];
+}
+
+struct Proxy {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(flat) ids: vec4u,      // face slot, first point, degrees, face flags
+    @location(1) @interpolate(flat) m00: vec4f,      // quadratic model in view axes; w: residual
+    @location(2) @interpolate(flat) m10: vec4f,      // w: size
+    @location(3) @interpolate(flat) m01: vec3f,
+    @location(4) @interpolate(flat) m20: vec3f,
+    @location(5) @interpolate(flat) m11: vec3f,
+    @location(6) @interpolate(flat) m02: vec3f,
+    @location(7) @interpolate(flat) uv: vec4f,
+    @location(8) @interpolate(flat) shift: vec3f,
+    @location(9) @interpolate(flat) grid_size: vec4u,  // GridHeader, first and second half
+    @location(10) @interpolate(flat) grid_base: vec4u,
+}
+
+struct Visibility {
+    @location(0) words: vec4u,
+    @builtin(frag_depth) depth: f32,
+}
+
+fn view_axes() -> Axes {
+    return Axes(view.right.xyz, view.up.xyz, view.forward.xyz);
+}
+
+// A strip of 14 corners round the box, widened by a pixel so that rounding opens no seams. The faces
+// turned away from the viewer are drawn: they cover the pixel from inside the box and behind the near
+// plane as well.
+@vertex
+fn vertex(@builtin(vertex_index) vertex_index: u32, @builtin(instance_index) instance: u32) -> Proxy {
+    let cell = cells[order[instance]];
+    let face = faces[cell.face];
+    let axes = view_axes();
+    let high = cell.origin_high - view.reference_high.xyz;
+    let low = cell.origin_low - view.reference_low.xyz;
+    let shift = axes_apply(axes, high + low);
+    let bit = 1u << (vertex_index % 14u);
+    let on = (vec3u(0x287au, 0x02afu, 0x31e3u) & vec3u(bit)) != vec3u(0u);
+    let corner = select(vec3f(-1.0), vec3f(1.0), on);
+    let centre = axes_apply(axes, cell.box_centre) + shift;
+    let far = max(centre.z + cell.size, 0.0);
+    let half = vec3f(cell.box_x.w, cell.box_y.w, cell.box_z.w) + (view.pixel.x + view.pixel.y * far);
+    let c = corner * half;
+    let offset = c.x * cell.box_x.xyz + c.y * cell.box_y.xyz + c.z * cell.box_z.xyz;
+    let p = centre + axes_apply(axes, offset);
+    let w = view.depth.z + view.depth.w * p.z;
+    let jitter = 2.0 * view.jitter / view.size * vec2f(1.0, -1.0);
+    let clip = vec4f(p.xy * view.clip_scale - jitter * w, view.depth.x + view.depth.y * p.z, w);
+    var out: Proxy;
+    out.position = select(vec4f(0.0, 0.0, -1.0, 1.0), clip, (face.flags & FACE_VISIBLE) != 0u);
+    out.ids = vec4u(cell.face, cell.first_point, cell.degrees, face.flags);
+    out.m00 = vec4f(axes_apply(axes, cell.m00) + shift, cell.residual);
+    out.m10 = vec4f(axes_apply(axes, cell.m10), cell.size);
+    out.m01 = axes_apply(axes, cell.m01);
+    out.m20 = axes_apply(axes, cell.m20);
+    out.m11 = axes_apply(axes, cell.m11);
+    out.m02 = axes_apply(axes, cell.m02);
+    out.uv = vec4f(cell.uv_min, cell.uv_max);
+    out.shift = shift;
+    let grid = face.grid;
+    out.grid_size = vec4u(grid.columns, grid.rows, bitcast<u32>(grid.scale_u), bitcast<u32>(grid.scale_v));
+    out.grid_base = vec4u(grid.cell_base, grid.entry_base, grid.data_base, grid.flags);
+    return out;
+}
+
+fn grid_header(in: Proxy) -> GridHeader {
+    return GridHeader(in.grid_size.x, in.grid_size.y, bitcast<f32>(in.grid_size.z), bitcast<f32>(in.grid_size.w),
+        in.grid_base.x, in.grid_base.y, in.grid_base.z, in.grid_base.w);
+}
+
+@fragment
+fn fragment(in: Proxy) -> Visibility {
+    let pixel = in.position.xy + view.jitter;
+    let ndc = (2.0 * pixel / view.size - 1.0) * vec2f(1.0, -1.0);
+    let ray = Ray(ndc * view.slope_scale, ndc * view.offset_scale);
+    let piece = Piece(in.ids.y, in.ids.z, in.m00.w, in.m10.w, in.shift,
+        in.m00.xyz, in.m10.xyz, in.m01, in.m20, in.m11, in.m02);
+    let conics = piece_conics(ray, piece);
+    let start = piece_seeds(piece, conics);
+    if (start.count == 0u) {
+        discard;
+    }
+    let axes = view_axes();
+    var found = false;
+    var evaluations = 0u;
+    var curve_evaluations = 0u;
+    var kept = true;
+    let trim = (view.flags & CAST_TRIM) != 0u;
+    let heat = (view.flags & CAST_HEAT) != 0u;
+    var depth = 0.0;
+    var uv = vec2f(0.0);
+    var normal = vec3f(0.0, 0.0, -1.0);
+    var x = start.first;
+    for (var attempt = 0u; attempt < start.count; attempt++) {
+        let root = newton(ray, axes, piece, conics, view.pixel, x);
+        evaluations += root.evaluations;
+        x = start.second;
+        depth = (view.depth.x + view.depth.y * root.z) / (view.depth.z + view.depth.w * root.z);
+        let on_cell = max(abs(root.x.x), abs(root.x.y)) <= 1.0 + HAIR + root.slack;
+        if (root.converged && on_cell && depth > 0.0 && depth <= 1.0) {
+            uv = clamp(mix(in.uv.xy, in.uv.zw, 0.5 + 0.5 * root.x), vec2f(0.0), vec2f(BELOW_ONE));
+            normal = root.normal;
+            if (trim && (in.ids.w & FACE_TRIMMED) != 0u) {
+                let verdict = classify(grid_header(in), uv.x, uv.y);
+                kept = verdict.inside;
+                curve_evaluations += verdict.evaluations;
+            }
+            found = kept || heat;
+            if (found) {
+                break;
+            }
+        }
+    }
+    if (!found) {
+        discard;
+    }
+    var out: Visibility;
+    let word = select(pack_normal(normal), pack_heat(normal, curve_evaluations, kept, evaluations), heat);
+    out.words = vec4u(in.ids.x + 1u, bitcast<u32>(uv.x), bitcast<u32>(uv.y), word);
+    out.depth = depth;
+    return out;
+}

@@ -1,0 +1,46 @@
+// Puts the accumulated picture over the background into the target, with depth.
+
+@group(0) @binding(0) var<uniform> look: Look;
+@group(0) @binding(1) var accumulated: texture_2d<f32>;
+@group(0) @binding(2) var smooth_sampler: sampler;
+@group(0) @binding(3) var depths: texture_depth_2d;
+
+struct Screen {
+    @builtin(position) position: vec4f,
+    @location(0) uv: vec2f,   // 0..1 from the top left
+}
+
+struct Pixel {
+    @location(0) colour: vec4f,
+    @builtin(frag_depth) depth: f32,
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Screen {
+    let corner = vec2f(f32((index << 1u) & 2u), f32(index & 2u));
+    return Screen(vec4f(2.0 * corner - 1.0, 0.0, 1.0), vec2f(corner.x, 1.0 - corner.y));
+}
+
+fn composed(uv: vec2f) -> vec4f {
+    let sum = textureSampleLevel(accumulated, smooth_sampler, uv, 0.0) / look.samples;
+    let background = mix(look.background_top, look.background_bottom, uv.y);
+    let over = vec4f(background.rgb * background.a, background.a);
+    let colour = sum + (1.0 - clamp(sum.a, 0.0, 1.0)) * over;
+    if (look.encode_srgb == 0u) {
+        return colour;
+    }
+    let straight = colour.rgb / max(colour.a, 1e-6);
+    return vec4f(srgb_from_linear(clamp(straight, vec3f(0.0), vec3f(1.0))), clamp(colour.a, 0.0, 1.0));
+}
+
+@fragment
+fn fragment(in: Screen) -> Pixel {
+    let texel = clamp(vec2i(in.uv * look.size), vec2i(0), vec2i(look.size) - 1);
+    return Pixel(composed(in.uv), textureLoad(depths, texel, 0));
+}
+
+// For targets without a depth buffer.
+@fragment
+fn fragment_flat(in: Screen) -> @location(0) vec4f {
+    return composed(in.uv);
+}

@@ -1,0 +1,97 @@
+// Turns the visibility buffer into colours, one sample per pixel, premultiplied linear RGB.
+
+@group(0) @binding(0) var<uniform> look: Look;
+@group(0) @binding(1) var visibility: texture_2d<u32>;
+@group(0) @binding(2) var depths: texture_depth_2d;
+@group(0) @binding(3) var<storage, read> faces: array<FaceHeader>;
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    let corner = vec2f(f32((index << 1u) & 2u), f32(index & 2u));
+    return vec4f(2.0 * corner - 1.0, 0.0, 1.0);
+}
+
+fn clamped(pixel: vec2i) -> vec2i {
+    return clamp(pixel, vec2i(0), vec2i(look.size) - 1);
+}
+
+fn words_at(pixel: vec2i) -> vec4u {
+    return textureLoad(visibility, clamped(pixel), 0);
+}
+
+// View depth of a pixel that shows a surface.
+fn z_at(pixel: vec2i) -> f32 {
+    let d = textureLoad(depths, clamped(pixel), 0);
+    return (d * look.depth.z - look.depth.x) / min(look.depth.y - d * look.depth.w, -1e-30);
+}
+
+fn ray_at(pixel: vec2f) -> Ray {
+    let ndc = (2.0 * pixel / look.size - 1.0) * vec2f(1.0, -1.0);
+    return Ray(ndc * look.slope_scale, ndc * look.offset_scale);
+}
+
+// Whether the pixel beside is another face, nothing, or the same face behind a silhouette. Of two
+// pixels that differ only one draws the line: the nearer, or the one with the smaller face.
+fn edge_to(here: vec4u, z: f32, p: vec3f, n: vec3f, pixel: vec2i, step: vec2i) -> bool {
+    let there = words_at(pixel + step);
+    if (there.x == 0u) {
+        return any(clamped(pixel + step) == pixel + step);
+    }
+    let z_there = z_at(pixel + step);
+    if (there.x != here.x) {
+        let width = look.pixel.x + look.pixel.y * abs(z);
+        let tie = abs(z_there - z) < 2.0 * width;
+        return select(z < z_there, here.x < there.x, tie);
+    }
+    // Where the tangent plane here says the neighbour should be.
+    let ray = ray_at(vec2f(pixel + step) + 0.5 + look.jitter);
+    let along = vec3f(ray.slope, 1.0);
+    let down = dot(n, along);
+    let plane_z = dot(n, p - vec3f(ray.offset, 0.0)) / select(down, -1e-6, abs(down) < 1e-6);
+    let width = look.pixel.x + look.pixel.y * abs(z);
+    return z_there - max(plane_z, z) > 12.0 * width && abs(down) > 1e-6 && z_there - z > 12.0 * width;
+}
+
+@fragment
+fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    let pixel = vec2i(position.xy);
+    let here = words_at(pixel);
+    if (here.x == 0u) {
+        return vec4f(0.0);
+    }
+    let face = faces[here.x - 1u];
+    let z = z_at(pixel);
+    let ray = ray_at(position.xy + look.jitter);
+    let p = ray_point(ray, z);
+    let eye = -normalize(vec3f(ray.slope, 1.0));
+    let heat = look.mode == MODE_HEAT;
+    var n = select(unpack_normal(here.w), unpack_heat_normal(here.w), heat);
+    let outside = (dot(n, eye) >= 0.0) != ((face.flags & FACE_REVERSED) != 0u);
+    n = select(-n, n, dot(n, eye) >= 0.0);
+    var base = face.colour;
+    if (look.mode == MODE_FACES) {
+        base = face_palette(face.number);
+    }
+    if (look.mode == MODE_UV) {
+        base = uv_board(vec2f(bitcast<f32>(here.y), bitcast<f32>(here.z)));
+    }
+    if (look.mode == MODE_SHADED && !outside) {
+        base = inside_tint(base);
+    }
+    if (heat) {
+        base = heat_colour(here.w);
+    }
+    if ((face.flags & FACE_SELECTED) != 0u) {
+        base = mix(base, look.selected.rgb, look.selected.a);
+    }
+    if ((face.flags & FACE_HOVERED) != 0u) {
+        base = mix(base, look.hovered.rgb, look.hovered.a);
+    }
+    var colour = lit(base, n, eye);
+    if (look.edges != 0u) {
+        let edge = edge_to(here, z, p, n, pixel, vec2i(1, 0)) || edge_to(here, z, p, n, pixel, vec2i(-1, 0)) ||
+            edge_to(here, z, p, n, pixel, vec2i(0, 1)) || edge_to(here, z, p, n, pixel, vec2i(0, -1));
+        colour = mix(colour, look.edge.rgb, select(0.0, look.edge.a, edge));
+    }
+    return vec4f(colour, 1.0);
+}

@@ -1,0 +1,347 @@
+//! The renderer: scene buffers, targets and the three passes of a picture.
+
+use glam::DVec3;
+
+use super::GpuError;
+use super::buffers::{SceneBuffers, Uploaded};
+use super::pipelines::Pipelines;
+use super::targets::Targets;
+use crate::encoding::view::{CAST_HEAT, CAST_TRIM, DepthRange};
+use crate::encoding::{DisplayMode, EdgeStyle, Look, PackedScene, Theme, View};
+use crate::kernel::view::Camera;
+
+/// One sample of a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Camera.
+    pub camera: Camera,
+    /// Depth planes; [`DepthRange::around`] for pictures of their own, the host's planes for mixing.
+    pub depth: DepthRange,
+    /// Size of the visibility buffer in pixels.
+    pub size: [u32; 2],
+    /// Shift of the samples within their pixels, -0.5..0.5.
+    pub jitter: [f32; 2],
+    /// What is drawn.
+    pub mode: DisplayMode,
+}
+
+/// Uniform blocks kept per renderer: enough for the samples of one submission.
+const SLOTS: u64 = 64;
+const SLOT_BYTES: u64 = 512;
+
+/// Draws packed scenes on a `wgpu` device.
+#[derive(Debug)]
+pub struct Renderer {
+    pipelines: Pipelines,
+    buffers: SceneBuffers,
+    uniforms: wgpu::Buffer,
+    next_slot: u64,
+    order: wgpu::Buffer,
+    order_count: u32,
+    order_revision: Option<u64>,
+    sampler: wgpu::Sampler,
+    targets: Targets,
+    cast_group: Option<wgpu::BindGroup>,
+    resolve_group: Option<wgpu::BindGroup>,
+    present_group: Option<wgpu::BindGroup>,
+    view: View,
+    samples: u32,
+}
+
+impl Renderer {
+    /// A renderer that presents into targets of `format`.
+    pub fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
+        let uniforms = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("uniforms"),
+            size: SLOTS * SLOT_BYTES,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        Self {
+            pipelines: Pipelines::new(device, format),
+            buffers: SceneBuffers::new(device),
+            uniforms,
+            next_slot: 0,
+            order: order_buffer(device, 1024),
+            order_count: 0,
+            order_revision: None,
+            sampler,
+            targets: Targets::new(device, [1, 1]),
+            cast_group: None,
+            resolve_group: None,
+            present_group: None,
+            view: bytemuck::Zeroable::zeroed(),
+            samples: 0,
+        }
+    }
+
+    /// Sends what changed in `scene`; call before [`Self::cast`] whenever it may have changed.
+    ///
+    /// # Errors
+    /// An array is larger than the device can bind.
+    pub fn upload(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &mut PackedScene,
+    ) -> Result<Uploaded, GpuError> {
+        let mut uploaded = self.buffers.update(device, queue, scene)?;
+        if self.order_revision != Some(scene.revision()) {
+            let order: Vec<u32> = scene.visible_cells().collect();
+            let bytes: &[u8] = bytemuck::cast_slice(&order);
+            if bytes.len() as u64 > self.order.size() {
+                self.order = order_buffer(device, bytes.len() as u64 * 3 / 2);
+                uploaded.renewed = true;
+            }
+            queue.write_buffer(&self.order, 0, bytes);
+            self.order_count = order.len() as u32;
+            self.order_revision = Some(scene.revision());
+            uploaded.bytes += bytes.len() as u64;
+        }
+        if uploaded.renewed {
+            self.cast_group = None;
+            self.resolve_group = None;
+        }
+        Ok(uploaded)
+    }
+
+    /// Casts the rays of one sample into the visibility buffer.
+    pub fn cast(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        sample: &Sample,
+    ) {
+        if self.targets.size != sample.size.map(|s| s.max(1)) {
+            self.targets = Targets::new(device, sample.size);
+            self.resolve_group = None;
+            self.present_group = None;
+        }
+        let flags = match sample.mode {
+            DisplayMode::Untrimmed => 0,
+            DisplayMode::Heat => CAST_TRIM | CAST_HEAT,
+            _ => CAST_TRIM,
+        };
+        self.view = View::new(&sample.camera, self.targets.size, sample.jitter, sample.depth, flags);
+        let view = self.view;
+        let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
+        if self.cast_group.is_none() {
+            self.cast_group = Some(self.make_cast_group(device));
+        }
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("cast"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &self.targets.visibility_view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.targets.depth_view,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(0.0),
+                    store: wgpu::StoreOp::Store,
+                }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: None,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        if self.order_count > 0 {
+            pass.set_pipeline(&self.pipelines.cast.pipeline);
+            pass.set_bind_group(0, &self.cast_group, &[slot]);
+            pass.draw(0..14, 0..self.order_count);
+        }
+    }
+
+    /// Shades the visibility buffer and adds it to the sum; `first` starts a new sum.
+    pub fn shade(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        mode: DisplayMode,
+        edges: EdgeStyle,
+        first: bool,
+    ) {
+        let look = Look::new(&self.view, mode, edges, Theme::Transparent);
+        let slot = self.write_uniform(queue, bytemuck::bytes_of(&look));
+        if self.resolve_group.is_none() {
+            self.resolve_group = Some(self.make_resolve_group(device));
+        }
+        let load = if first { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
+        self.samples = if first { 1 } else { self.samples + 1 };
+        let mut pass = full_screen(encoder, "shade", &self.targets.sum_view, load, None);
+        pass.set_pipeline(&self.pipelines.resolve.pipeline);
+        pass.set_bind_group(0, &self.resolve_group, &[slot]);
+        pass.draw(0..3, 0..1);
+    }
+
+    /// Puts the sum over the background into `target`. With `depth` the surfaces are depth tested and
+    /// blended over what is there, and the background must be [`Theme::Transparent`] to keep it.
+    pub fn present(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::TextureView,
+        depth: Option<&wgpu::TextureView>,
+        presentation: &Presentation,
+    ) {
+        let mut look = Look::new(&self.view, DisplayMode::Shaded, EdgeStyle::default(), presentation.theme);
+        look.samples = self.samples.max(1) as f32;
+        look.encode_srgb = u32::from(presentation.encode_srgb);
+        let slot = self.write_uniform(queue, bytemuck::bytes_of(&look));
+        if self.present_group.is_none() {
+            self.present_group = Some(self.make_present_group(device));
+        }
+        let attachment = depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        });
+        let load =
+            if depth.is_some() { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) };
+        let mut pass = full_screen(encoder, "present", target, load, attachment);
+        let chosen = if depth.is_some() { &self.pipelines.present } else { &self.pipelines.present_flat };
+        pass.set_pipeline(&chosen.pipeline);
+        pass.set_bind_group(0, &self.present_group, &[slot]);
+        if let Some([x, y, width, height]) = presentation.viewport {
+            pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+        }
+        pass.draw(0..3, 0..1);
+    }
+
+    /// The offscreen textures, for reading back.
+    pub fn targets(&self) -> &Targets {
+        &self.targets
+    }
+
+    /// The view of the last cast.
+    pub fn view(&self) -> &View {
+        &self.view
+    }
+
+    /// Samples in the sum.
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// Cells drawn by each cast.
+    pub fn cell_count(&self) -> u32 {
+        self.order_count
+    }
+
+    fn write_uniform(&mut self, queue: &wgpu::Queue, bytes: &[u8]) -> u32 {
+        let offset = (self.next_slot % SLOTS) * SLOT_BYTES;
+        self.next_slot += 1;
+        queue.write_buffer(&self.uniforms, offset, bytes);
+        offset as u32
+    }
+
+    fn uniform_binding(&self, size: usize) -> wgpu::BindingResource<'_> {
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &self.uniforms,
+            offset: 0,
+            size: wgpu::BufferSize::new(size as u64),
+        })
+    }
+
+    fn make_cast_group(&self, device: &wgpu::Device) -> wgpu::BindGroup {
+        let mut resources = vec![self.uniform_binding(size_of::<View>()), self.order.as_entire_binding()];
+        resources.extend(self.buffers.bindings().map(|b| b.as_entire_binding()));
+        group(device, "cast", &self.pipelines.cast.layout, resources)
+    }
+
+    fn make_resolve_group(&self, device: &wgpu::Device) -> wgpu::BindGroup {
+        let resources = vec![
+            self.uniform_binding(size_of::<Look>()),
+            wgpu::BindingResource::TextureView(&self.targets.visibility_view),
+            wgpu::BindingResource::TextureView(&self.targets.depth_view),
+            self.buffers.faces().as_entire_binding(),
+        ];
+        group(device, "shade", &self.pipelines.resolve.layout, resources)
+    }
+
+    fn make_present_group(&self, device: &wgpu::Device) -> wgpu::BindGroup {
+        let resources = vec![
+            self.uniform_binding(size_of::<Look>()),
+            wgpu::BindingResource::TextureView(&self.targets.sum_view),
+            wgpu::BindingResource::Sampler(&self.sampler),
+            wgpu::BindingResource::TextureView(&self.targets.depth_view),
+        ];
+        group(device, "present", &self.pipelines.present.layout, resources)
+    }
+}
+
+/// How a picture is put into its target.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Presentation {
+    /// Background.
+    pub theme: Theme,
+    /// Whether colours are to be encoded as sRGB: for targets that store what they are given.
+    pub encode_srgb: bool,
+    /// x, y, width and height in target pixels; `None`: the whole target.
+    pub viewport: Option<[u32; 4]>,
+}
+
+/// A sphere around a scene for [`DepthRange::around`].
+pub fn bounding_sphere(scene: &PackedScene) -> (DVec3, f64) {
+    let bounds = scene.bounds();
+    (bounds.centre(), 0.5 * bounds.diagonal())
+}
+
+fn order_buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("order"),
+        size: size.next_multiple_of(256),
+        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+fn group(
+    device: &wgpu::Device,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    resources: Vec<wgpu::BindingResource>,
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = resources
+        .into_iter()
+        .enumerate()
+        .map(|(k, resource)| wgpu::BindGroupEntry { binding: k as u32, resource })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
+}
+
+fn full_screen<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    label: &str,
+    view: &wgpu::TextureView,
+    load: wgpu::LoadOp<wgpu::Color>,
+    depth: Option<wgpu::RenderPassDepthStencilAttachment>,
+) -> wgpu::RenderPass<'a> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+        })],
+        depth_stencil_attachment: depth,
+        timestamp_writes: None,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
+}

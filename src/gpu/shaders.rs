@@ -1,0 +1,38 @@
+//! The shader modules, put together from the pieces in `shaders/` by plain concatenation: layouts, then
+//! library functions, then the pass. Names are unique across all pieces.
+
+macro_rules! pieces {
+    ($($path:literal),+ $(,)?) => {
+        concat!($(include_str!(concat!("../../shaders/", $path)), "\n"),+)
+    };
+}
+
+/// Casts rays at cells.
+pub const CAST: &str = pieces!(
+    "layout/view.wgsl",
+    "layout/cell.wgsl",
+    "layout/face.wgsl",
+    "lib/pack.wgsl",
+    "lib/ray.wgsl",
+    "lib/patch_jet.wgsl",
+    "lib/seeds.wgsl",
+    "lib/solve.wgsl",
+    "lib/classify.wgsl",
+    "pass/cast.wgsl",
+);
+
+/// Shades the visibility buffer.
+pub const RESOLVE: &str = pieces!(
+    "layout/face.wgsl",
+    "layout/look.wgsl",
+    "lib/pack.wgsl",
+    "lib/ray.wgsl",
+    "lib/shade.wgsl",
+    "pass/resolve.wgsl",
+);
+
+/// Puts the accumulated samples over the background.
+pub const PRESENT: &str = pieces!("layout/look.wgsl", "lib/shade.wgsl", "pass/present.wgsl");
+
+/// Every module with its name, for validation.
+pub const MODULES: [(&str, &str); 3] = [("cast", CAST), ("resolve", RESOLVE), ("present", PRESENT)];
