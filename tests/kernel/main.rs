@@ -1,5 +1,6 @@
 //! Identities and properties of the geometry kernel.
 
+mod areas;
 mod raycast;
 mod splines;
 mod zoo;

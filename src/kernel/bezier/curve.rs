@@ -77,6 +77,29 @@ impl<V: Vector> BezierCurve<V> {
         }
     }
 
+    /// Point and first derivative at `t`.
+    pub fn tangent(&self, t: f64) -> (V, V) {
+        match self.points.len() {
+            0..=4 => self.tangent_sized::<4>(t),
+            5..=8 => self.tangent_sized::<8>(t),
+            _ => self.tangent_sized::<MAX_COUNT>(t),
+        }
+    }
+
+    fn tangent_sized<const N: usize>(&self, t: f64) -> (V, V) {
+        let b = bernstein::tangent::<N>(self.degree(), t);
+        let mut h = [(V::ZERO, 0.0); 2];
+        for (i, (p, w)) in self.points.iter().zip(&self.weights).enumerate() {
+            for (sum, b) in h.iter_mut().zip(&b) {
+                let factor = w * b[i];
+                *sum = (sum.0 + *p * factor, sum.1 + factor);
+            }
+        }
+        let w = 1.0 / h[0].1;
+        let point = h[0].0 * w;
+        (point, (h[1].0 - point * h[1].1) * w)
+    }
+
     fn point_sized<const N: usize>(&self, t: f64) -> V {
         let mut b = [0.0; N];
         bernstein::values(self.degree(), t, &mut b);

@@ -1,8 +1,16 @@
 //! Questions asked of exact geometry: where a ray hits, how large a face is, what is closest.
 
+pub mod area;
+pub mod boundary;
 pub mod bounds_tree;
 pub mod line_roots;
+pub mod quadrature;
 pub mod raycast;
+mod row;
+pub mod sheet;
 
+pub use area::{Area, face_area, trimmed_area};
+pub use boundary::Boundary;
 pub use bounds_tree::BoundsTree;
 pub use raycast::{RayHit, RayHits, Raycaster};
+pub use sheet::Sheet;

@@ -1,0 +1,171 @@
+//! Area of a trimmed face.
+//!
+//! The region is cut into horizontal panels between critical heights (ends of monotone edges and
+//! patch lines), in which its outline is a fixed set of smooth functions u(v). Both integrals use
+//! Gauss-Legendre rules, doubled until they agree. Where an edge turns at a panel's end u is like a square
+//! root of v there: the panel is then measured in a variable of which v is a square (or a cubic smooth step,
+//! both ends), which makes the integrand smooth. Even-odd pairs the crossings of each row.
+//!
+//! The error estimate is the sum of the last differences, far above the error of converged panels.
+
+use super::boundary::{Boundary, Edge};
+use super::quadrature::{ORDERS, rule};
+use super::row::Row;
+use super::sheet::{Sheet, interval};
+use crate::kernel::face::Face;
+
+/// The area of a face.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Area {
+    /// Model units squared.
+    pub value: f64,
+    /// An upper estimate of the error, model units squared.
+    pub error: f64,
+}
+
+/// Relative accuracy that [`trimmed_area`] works to; smooth faces end far below it.
+const ACCURACY: f64 = 1e-10;
+/// Halvings of a panel.
+const DEPTH: u32 = 14;
+/// Mean v-speeds below this part of an edge's mean count as turning.
+const TURNING: f64 = 0.3;
+
+/// Area of a derived face.
+pub fn face_area(face: &Face) -> Area {
+    trimmed_area(&Sheet::new(&face.patches), &Boundary::new(&face.pieces, &face.domain))
+}
+
+/// Area of the part of `sheet` inside `boundary`, or of all of it when the boundary has no edges.
+pub fn trimmed_area(sheet: &Sheet, boundary: &Boundary) -> Area {
+    let panels = panels(sheet, boundary);
+    let rough: f64 = panels.iter().map(|p| p.integrate(sheet, 1, (1, 1))).sum();
+    let mut area = Area::default();
+    for panel in &panels {
+        let Area { value, error } = panel.measure(sheet, ACCURACY * rough, DEPTH);
+        area.value += value;
+        area.error += error;
+    }
+    area
+}
+
+/// A strip between two heights that edges cross from bottom to top.
+struct Panel<'b> {
+    low: f64,
+    high: f64,
+    /// Row of patches.
+    cell: usize,
+    /// Whether some edge turns at the lower and at the upper end.
+    turning: (bool, bool),
+    edges: Vec<&'b Edge>,
+}
+
+fn panels<'b>(sheet: &Sheet, boundary: &'b Boundary) -> Vec<Panel<'b>> {
+    let lines = sheet.v_lines();
+    let (Some(&bottom), Some(&top)) = (lines.first(), lines.last()) else { return Vec::new() };
+    let whole = boundary.edges().is_empty();
+    let mut edges: Vec<(&Edge, (f64, f64))> =
+        boundary.edges().iter().filter(|e| e.high > e.low).map(|e| (e, e.end_speeds())).collect();
+    edges.sort_by(|a, b| a.0.low.total_cmp(&b.0.low));
+    let mut heights: Vec<f64> = edges.iter().flat_map(|(e, _)| [e.low, e.high]).collect();
+    heights.extend(lines);
+    heights.retain(|v| *v >= bottom && *v <= top);
+    heights.sort_unstable_by(f64::total_cmp);
+    heights.dedup();
+    // Thinner panels than this hold nothing that counts.
+    let thinnest = 1e-14 * (top - bottom);
+    let mut panels = Vec::new();
+    let (mut active, mut next) = (Vec::<(&Edge, (f64, f64))>::new(), 0);
+    for pair in heights.windows(2) {
+        let (low, high) = (pair[0], pair[1]);
+        active.retain(|(e, _)| e.high > low);
+        while next < edges.len() && edges[next].0.low <= low {
+            if edges[next].0.high > low {
+                active.push(edges[next]);
+            }
+            next += 1;
+        }
+        if high - low <= thinnest || (active.is_empty() && !whole) {
+            continue;
+        }
+        let at_low = active.iter().any(|(e, speed)| e.low == low && speed.0 < TURNING);
+        let at_high = active.iter().any(|(e, speed)| e.high == high && speed.1 < TURNING);
+        panels.push(Panel {
+            low,
+            high,
+            cell: interval(lines, 0.5 * (low + high)),
+            turning: (at_low, at_high),
+            edges: active.iter().map(|(e, _)| *e).collect(),
+        });
+    }
+    panels
+}
+
+impl Panel<'_> {
+    /// The panel's area to `tolerance`.
+    fn measure(&self, sheet: &Sheet, tolerance: f64, depth: u32) -> Area {
+        let across = self.rule_across(sheet, tolerance);
+        let mut before = self.integrate(sheet, 1, across);
+        let mut error = f64::INFINITY;
+        for order in 2..ORDERS.len() {
+            let value = self.integrate(sheet, order, across);
+            error = (value - before).abs();
+            before = value;
+            if error <= tolerance {
+                return Area { value, error };
+            }
+        }
+        if depth == 0 || error.is_nan() {
+            return Area { value: before, error };
+        }
+        let middle = 0.5 * (self.low + self.high);
+        let part =
+            |low, high, turning| Panel { low, high, turning, edges: self.edges.clone(), cell: self.cell };
+        let lower = part(self.low, middle, (self.turning.0, false)).measure(sheet, tolerance, depth - 1);
+        let upper = part(middle, self.high, (false, self.turning.1)).measure(sheet, tolerance, depth - 1);
+        Area { value: lower.value + upper.value, error: lower.error + upper.error }
+    }
+
+    /// A rule in u (order index and number of equal parts) that suffices at three heights.
+    fn rule_across(&self, sheet: &Sheet, tolerance: f64) -> (usize, usize) {
+        const RULES: [(usize, usize); 8] = [(0, 1), (1, 1), (2, 1), (3, 1), (3, 2), (3, 4), (3, 8), (3, 16)];
+        let size = self.high - self.low;
+        let mut needed = 0;
+        for part in [0.03, 0.5, 0.97] {
+            let row = self.row(sheet, self.low + part * size);
+            let mut before = row.integrate(RULES[needed]);
+            while needed + 1 < RULES.len() {
+                let value = row.integrate(RULES[needed + 1]);
+                if (value - before).abs() * size <= 0.1 * tolerance {
+                    break;
+                }
+                before = value;
+                needed += 1;
+            }
+        }
+        RULES[needed]
+    }
+
+    fn row(&self, sheet: &Sheet, v: f64) -> Row {
+        let mut crossings: Vec<f64> = self.edges.iter().map(|e| e.u_at(v)).collect();
+        if self.edges.is_empty() {
+            crossings.extend([sheet.u_lines()[0], sheet.u_lines()[sheet.u_lines().len() - 1]]);
+        }
+        crossings.sort_unstable_by(f64::total_cmp);
+        Row::new(sheet, self.cell, v, &crossings)
+    }
+
+    fn integrate(&self, sheet: &Sheet, order: usize, across: (usize, usize)) -> f64 {
+        let size = self.high - self.low;
+        let sum = rule(order).iter().map(|(x, w)| {
+            // Height in 0..1 and its derivative.
+            let (y, slope) = match self.turning {
+                (false, false) => (*x, 1.0),
+                (true, false) => (x * x, 2.0 * x),
+                (false, true) => (x * (2.0 - x), 2.0 - 2.0 * x),
+                (true, true) => (x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x)),
+            };
+            w * slope * self.row(sheet, self.low + size * y).integrate(across)
+        });
+        size * sum.sum::<f64>()
+    }
+}
