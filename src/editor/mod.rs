@@ -1,1 +1,97 @@
-//! (being built)
+//! The interactive editor: a window with the model, its tree, properties and report.
+//!
+//! One folder per capability; each `mod.rs` is the capability's wiring diagram. Data flows one way:
+//! `files` (records) -> `object` (authored components) -> `derive` (derived components) -> `render` (extract,
+//! upload, passes). `panels` read state and write messages; `tools` is the table of commands that menus, keys
+//! and toolbar are made from; `selection`, `camera` and `settings` serve them. `render` knows nothing of files.
+
+pub mod camera;
+pub mod derive;
+pub mod diagnostics;
+pub mod files;
+pub mod object;
+pub mod panels;
+pub mod picking;
+pub mod redraw;
+pub mod render;
+pub mod selection;
+pub mod settings;
+mod startup;
+pub mod theme;
+pub mod tools;
+pub mod viewport;
+
+use bevy::prelude::*;
+use bevy_egui::EguiPlugin;
+
+pub use startup::{EditorOptions, StartError, run};
+
+/// The order of work in `Update`.
+#[derive(SystemSet, Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum EditorSystems {
+    /// Keys, mouse, dropped files: from input to messages and camera motions.
+    Input,
+    /// Commands: each capability serves its own.
+    Tools,
+    /// Authored and interaction components change: models spawned, selection and visibility applied.
+    ApplyEdits,
+    /// Derived components follow the authored ones.
+    Derive,
+    /// Flights, cameras and notices: what the frame will show.
+    Present,
+}
+
+/// Within [`EditorSystems::Input`]: motions that need to know who has the pointer.
+#[derive(SystemSet, Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct NavigationInput;
+
+/// The whole editor. Without a window (tests) everything but panels, rendering and input from egui.
+pub struct EditorPlugin {
+    /// Whether there is a window with panels.
+    pub windowed: bool,
+}
+
+impl Plugin for EditorPlugin {
+    fn build(&self, app: &mut App) {
+        app.configure_sets(
+            Update,
+            (
+                EditorSystems::Input,
+                EditorSystems::Tools,
+                EditorSystems::ApplyEdits,
+                EditorSystems::Derive,
+                EditorSystems::Present,
+            )
+                .chain(),
+        )
+        .configure_sets(Update, NavigationInput.in_set(EditorSystems::Input));
+        app.add_plugins((
+            object::ObjectPlugin,
+            derive::DerivePlugin,
+            selection::SelectionPlugin,
+            settings::SettingsPlugin,
+            tools::ToolsPlugin,
+            files::FilesPlugin,
+            camera::CameraPlugin,
+            picking::PickingPlugin { windowed: self.windowed },
+            redraw::RedrawPlugin,
+        ))
+        .init_resource::<panels::Notices>()
+        .add_systems(Update, quit.in_set(EditorSystems::Tools));
+        if self.windowed {
+            app.add_plugins((
+                EguiPlugin::default(),
+                panels::PanelsPlugin,
+                render::RenderPlugin,
+                diagnostics::DiagnosticsPlugin,
+            ));
+        }
+    }
+}
+
+/// Serves `Quit`.
+fn quit(mut requests: MessageReader<tools::CommandRequest>, mut exit: MessageWriter<AppExit>) {
+    if requests.read().any(|r| r.0 == tools::Action::Quit) {
+        exit.write(AppExit::Success);
+    }
+}

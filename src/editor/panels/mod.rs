@@ -1,0 +1,168 @@
+//! Everything drawn with egui. Panels read state and write messages, nothing else.
+//!
+//! Wiring: one system, [`show`], in the egui pass, after the theme. It builds bars, side panels and overlays
+//! around and above the viewport, whose rectangle it leaves in [`Viewport`](super::viewport::Viewport).
+
+mod about;
+mod format;
+mod help;
+mod icon;
+mod menu;
+mod notice;
+mod progress;
+mod properties;
+mod report;
+mod status;
+mod toolbar;
+mod tree;
+mod tree_rows;
+mod view_cube;
+
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::*;
+use bevy::window::{PrimaryWindow, RequestRedraw};
+use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
+
+pub use notice::{Notice, Notices};
+
+use super::camera::{CameraRequest, ViewCamera};
+use super::derive::SceneBounds;
+use super::diagnostics::{ProcessMemory, RenderFigures};
+use super::files::{Loading, OpenDialog, OpenFiles};
+use super::object::{AuthoredFace, DerivedFace, Model, Part, Scene, Shown};
+use super::picking::Picker;
+use super::selection::{SelectRequest, Selection, VisibilityRequest};
+use super::settings::Settings;
+use super::theme::{self, Palette};
+use super::tools::{Action, CommandRequest, CurrentSituation};
+use super::viewport::Viewport;
+
+/// Adds the panels.
+pub struct PanelsPlugin;
+
+impl Plugin for PanelsPlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<Notices>()
+            .init_resource::<Palette>()
+            .init_resource::<PanelState>()
+            .add_systems(Update, (sheets, notice::expire).in_set(super::EditorSystems::Present))
+            .add_systems(EguiPrimaryContextPass, (theme::install, show).chain());
+    }
+}
+
+/// What panels remember from frame to frame.
+#[derive(Resource, Default)]
+pub struct PanelState {
+    /// Whether the help sheet is open.
+    pub help: bool,
+    /// Whether the about box is open.
+    pub about: bool,
+    /// The model tree.
+    pub(super) tree: tree::TreeState,
+    /// The import report.
+    pub(super) report: report::ReportState,
+}
+
+/// State that panels read.
+#[derive(SystemParam)]
+pub(super) struct Reads<'w, 's> {
+    pub settings: Res<'w, Settings>,
+    pub palette: Res<'w, Palette>,
+    pub scene: Res<'w, Scene>,
+    pub bounds: Res<'w, SceneBounds>,
+    pub situation: Res<'w, CurrentSituation>,
+    pub loading: Res<'w, Loading>,
+    pub picker: Res<'w, Picker>,
+    pub camera: Res<'w, ViewCamera>,
+    pub figures: Res<'w, RenderFigures>,
+    pub memory: Res<'w, ProcessMemory>,
+    pub faces: Query<'w, 's, (&'static AuthoredFace, &'static Shown, Option<&'static DerivedFace>)>,
+    pub models: Query<'w, 's, &'static Model>,
+    pub parts: Query<'w, 's, &'static Part>,
+}
+
+/// Messages that panels write.
+#[derive(SystemParam)]
+pub(super) struct Writes<'w> {
+    pub commands: MessageWriter<'w, CommandRequest>,
+    pub select: MessageWriter<'w, SelectRequest>,
+    pub visibility: MessageWriter<'w, VisibilityRequest>,
+    pub camera: MessageWriter<'w, CameraRequest>,
+    pub open: MessageWriter<'w, OpenFiles>,
+    pub redraw: MessageWriter<'w, RequestRedraw>,
+}
+
+/// State that panels own or share: their own memory, the hovered face, notices, the dialog.
+#[derive(SystemParam)]
+pub(super) struct Owned<'w> {
+    pub state: ResMut<'w, PanelState>,
+    pub selection: ResMut<'w, Selection>,
+    pub notices: ResMut<'w, Notices>,
+    pub dialog: ResMut<'w, OpenDialog>,
+    pub viewport: ResMut<'w, Viewport>,
+}
+
+/// Opens and closes sheets by command; Esc closes them before it clears the selection.
+fn sheets(mut requests: MessageReader<CommandRequest>, mut state: ResMut<PanelState>) {
+    for CommandRequest(action) in requests.read() {
+        match action {
+            Action::Shortcuts => state.help = !state.help,
+            Action::About => state.about = !state.about,
+            Action::Find => state.tree.focus_search = true,
+            _ => {}
+        }
+    }
+}
+
+/// Builds all panels.
+fn show(
+    mut contexts: EguiContexts,
+    windows: Query<&Window, With<PrimaryWindow>>,
+    reads: Reads,
+    mut writes: Writes,
+    mut owned: Owned,
+) -> Result {
+    let ctx = contexts.ctx_mut()?.clone();
+    let mut root = egui::Ui::new(
+        ctx.clone(),
+        egui::Id::new("hairline"),
+        egui::UiBuilder::new().layer_id(egui::LayerId::background()).max_rect(ctx.viewport_rect()),
+    );
+    menu::show(&mut root, &reads, &mut writes);
+    toolbar::show(&mut root, &reads, &mut writes);
+    status::show(&mut root, &reads, &owned.selection);
+    if reads.settings.report {
+        report::show(&mut root, &reads, &mut writes, &mut owned);
+    }
+    if reads.settings.tree {
+        tree::show(&mut root, &reads, &mut writes, &mut owned);
+    }
+    if reads.settings.properties {
+        properties::show(&mut root, &reads, &owned.selection);
+    }
+    let rect = root.available_rect_before_wrap();
+    set_viewport(&mut owned.viewport, rect, windows.single().map_or(1.0, Window::scale_factor), &mut writes);
+    view_cube::show(&root, rect, &reads, &mut writes);
+    progress::show(&ctx, rect, &reads, &mut writes);
+    notice::show(&ctx, rect, &reads.palette, &mut owned.notices);
+    help::show(&ctx, &reads.palette, &mut owned.state.help);
+    about::show(&ctx, &reads.palette, &mut owned.state.about);
+    owned.dialog.dialog.update(&ctx);
+    if let Some(request) = owned.dialog.take_request() {
+        writes.open.write(request);
+        writes.redraw.write(RequestRedraw);
+    }
+    Ok(())
+}
+
+fn set_viewport(viewport: &mut ResMut<Viewport>, rect: egui::Rect, scale_factor: f32, writes: &mut Writes) {
+    let now = Viewport {
+        min: Vec2::new(rect.min.x, rect.min.y),
+        size: Vec2::new(rect.width().max(1.0), rect.height().max(1.0)),
+        scale_factor,
+    };
+    if viewport.set_if_neq(now) {
+        // The picture follows in the next frame.
+        writes.redraw.write(RequestRedraw);
+    }
+}

@@ -1,0 +1,80 @@
+//! The status bar: what is under the pointer on the left, figures on the right.
+
+use bevy_egui::egui::{self, Align, Frame, Label, Layout, Margin, RichText, Ui};
+
+use super::Reads;
+use super::format::{bytes, coordinate, plural};
+use crate::editor::selection::Selection;
+
+/// Shows the bar.
+pub(super) fn show(root: &mut Ui, reads: &Reads, selection: &Selection) {
+    let frame = Frame::new().fill(reads.palette.bar).inner_margin(Margin::symmetric(10, 3));
+    egui::Panel::bottom("status").frame(frame).show(root, |ui| {
+        ui.horizontal(|ui| {
+            ui.style_mut().override_text_style = Some(egui::TextStyle::Small);
+            ui.label(RichText::new(under_pointer(reads)).color(reads.palette.text));
+            if !selection.is_empty() {
+                separator(ui, reads);
+                let text = format!("{} selected", plural(selection.faces().len(), "face"));
+                ui.label(RichText::new(text).color(reads.palette.accent));
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| figures(ui, reads));
+        });
+    });
+}
+
+fn under_pointer(reads: &Reads) -> String {
+    let Some((_, Some(hit))) = reads.picker.answer.filter(|_| reads.picker.wanted.is_some()) else {
+        return if reads.scene.is_empty() {
+            "Open a file with Ctrl+O, or drop one here".into()
+        } else {
+            "F1 shows keys and mouse".into()
+        };
+    };
+    let number = reads.faces.get(hit.face).map_or(0, |(authored, ..)| authored.number);
+    let p = hit.position;
+    format!(
+        "Face {number}    x {}  y {}  z {}    u {:.5}  v {:.5}",
+        coordinate(p.x),
+        coordinate(p.y),
+        coordinate(p.z),
+        hit.uv.x,
+        hit.uv.y
+    )
+}
+
+fn figures(ui: &mut Ui, reads: &Reads) {
+    let figures = *reads.figures.lock();
+    let faces = reads.scene.face_count();
+    let curves: usize = reads.faces.iter().filter_map(|(.., d)| d).map(|d| d.0.curves).sum();
+    let memory = match (reads.memory.resident, figures.gpu_bytes) {
+        (Some(resident), 0) => bytes(resident),
+        (Some(resident), gpu) => format!("{} + {} GPU", bytes(resident), bytes(gpu)),
+        (None, gpu) => format!("{} GPU", bytes(gpu)),
+    };
+    let gpu = figures.gpu_ms.map_or("–".to_owned(), |ms| format!("{ms:.1} ms"));
+    let samples = if figures.resolution < 1.0 && figures.samples <= 1 {
+        format!("{:.0} % resolution", 100.0 * figures.resolution)
+    } else {
+        format!("{} / {} samples", figures.samples, figures.samples_wanted)
+    };
+    let entries = [
+        (memory, "Memory of the program and of the model on the GPU"),
+        (plural(curves, "trim curve"), "Trim curves of all open faces"),
+        (plural(faces, "face"), "Faces of all open models"),
+        (samples, "Samples per pixel; the picture refines while nothing moves"),
+        (format!("GPU {gpu}"), "Time the GPU took for the model in the last frame"),
+        (format!("Frame {:.1} ms", figures.frame_ms), "Time the last frame took; at rest no frame is drawn"),
+    ];
+    let count = entries.len();
+    for (i, (text, hint)) in entries.into_iter().enumerate() {
+        ui.add(Label::new(RichText::new(text).color(reads.palette.weak))).on_hover_text(hint);
+        if i + 1 < count {
+            separator(ui, reads);
+        }
+    }
+}
+
+fn separator(ui: &mut Ui, reads: &Reads) {
+    ui.label(RichText::new("·").color(reads.palette.weak));
+}

@@ -1,0 +1,105 @@
+//! Clicks and hovering.
+
+use std::time::Duration;
+
+use bevy::prelude::*;
+use bevy::window::RequestRedraw;
+
+use super::Picker;
+use crate::editor::camera::CameraRequest;
+use crate::editor::object::DerivedFace;
+use crate::editor::selection::{SelectMode, SelectRequest, Selection};
+use crate::editor::viewport::{Pointer, Viewport};
+
+/// Farther than this, logical pixels, it is a drag.
+const CLICK_SLOP: f32 = 4.0;
+/// Two clicks within this time are a double click.
+const DOUBLE_CLICK: Duration = Duration::from_millis(400);
+
+/// A click whose pixel is not answered yet.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Click {
+    pixel: UVec2,
+    mode: SelectMode,
+    double: bool,
+}
+
+/// The left button since it went down.
+#[derive(Debug, Default)]
+pub(super) struct LeftButton {
+    down: Option<Vec2>,
+    last: Option<(Duration, Vec2)>,
+}
+
+/// Notes clicks: left button down and up again at about the same place of the viewport.
+pub(super) fn press(
+    mut picker: ResMut<Picker>,
+    mut left: Local<LeftButton>,
+    buttons: Res<ButtonInput<MouseButton>>,
+    keys: Res<ButtonInput<KeyCode>>,
+    pointer: Res<Pointer>,
+    viewport: Res<Viewport>,
+    time: Res<Time<Real>>,
+) {
+    let Some(position) = pointer.position else { return };
+    let held = |a, b| keys.any_pressed([a, b]);
+    if buttons.just_pressed(MouseButton::Left) {
+        let alt = held(KeyCode::AltLeft, KeyCode::AltRight);
+        left.down = (pointer.in_viewport && !alt).then_some(position);
+    }
+    if !buttons.just_released(MouseButton::Left) {
+        return;
+    }
+    let Some(down) = left.down.take().filter(|down| down.distance(position) <= CLICK_SLOP) else { return };
+    let ctrl = held(KeyCode::ControlLeft, KeyCode::ControlRight);
+    let shift = held(KeyCode::ShiftLeft, KeyCode::ShiftRight);
+    let now = time.elapsed();
+    let double = left
+        .last
+        .is_some_and(|(t, p)| now.saturating_sub(t) <= DOUBLE_CLICK && p.distance(down) <= CLICK_SLOP);
+    left.last = (!double).then_some((now, down));
+    let mode = if ctrl || shift { SelectMode::Toggle } else { SelectMode::Replace };
+    let pixel = viewport.pixel(position);
+    picker.wanted = Some(pixel);
+    picker.click = Some(Click { pixel, mode, double });
+}
+
+/// Serves hover and the waiting click from the answer; asks for frames until the answer is there.
+pub(super) fn resolve(
+    mut picker: ResMut<Picker>,
+    mut selection: ResMut<Selection>,
+    pointer: Res<Pointer>,
+    faces: Query<&DerivedFace>,
+    mut requests: MessageWriter<SelectRequest>,
+    mut camera: MessageWriter<CameraRequest>,
+    mut redraw: MessageWriter<RequestRedraw>,
+    mut hovering: Local<bool>,
+) {
+    if let (Some(click), Some((pixel, hit))) = (picker.click, picker.answer)
+        && pixel == click.pixel
+    {
+        picker.click = None;
+        let faces_hit: Vec<Entity> = hit.map(|h| h.face).into_iter().collect();
+        if click.double {
+            if let Some(derived) = hit.and_then(|h| faces.get(h.face).ok()) {
+                camera.write(CameraRequest::FitBounds(derived.0.bounds));
+            }
+        } else if !faces_hit.is_empty() || click.mode == SelectMode::Replace {
+            requests.write(SelectRequest { faces: faces_hit, mode: click.mode });
+        }
+        redraw.write(RequestRedraw);
+    }
+    if pointer.in_viewport {
+        let hovered = picker.answer.and_then(|(_, hit)| hit).map(|h| h.face);
+        if selection.hovered != hovered {
+            selection.hovered = hovered;
+        }
+    } else if *hovering && selection.hovered.is_some() {
+        // The pointer left for a panel: the tree sets its own.
+        selection.hovered = None;
+    }
+    *hovering = pointer.in_viewport;
+    if picker.is_waiting() {
+        redraw.write(RequestRedraw);
+    }
+}

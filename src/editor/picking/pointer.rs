@@ -1,0 +1,41 @@
+//! Who gets the pointer: the viewport or a panel.
+
+use bevy::prelude::*;
+use bevy::window::PrimaryWindow;
+use bevy_egui::{EguiContexts, egui};
+
+use super::Picker;
+use crate::editor::viewport::{Pointer, Viewport};
+
+/// Decides anew while no button is down; a drag stays where it began.
+pub(super) fn route(
+    windows: Query<&Window, With<PrimaryWindow>>,
+    buttons: Res<ButtonInput<MouseButton>>,
+    viewport: Res<Viewport>,
+    mut contexts: EguiContexts,
+    mut pointer: ResMut<Pointer>,
+    mut picker: ResMut<Picker>,
+) {
+    let Ok(window) = windows.single() else { return };
+    let mut now = *pointer;
+    now.position = window.cursor_position();
+    let ctx = contexts.ctx_mut().ok();
+    now.keyboard_taken = ctx.as_ref().is_some_and(|ctx| ctx.egui_wants_keyboard_input());
+    let held_before = buttons.get_pressed().any(|b| !buttons.just_pressed(*b));
+    if !held_before {
+        now.in_viewport = now.position.is_some_and(|position| {
+            let above = ctx.as_ref().is_some_and(|ctx| {
+                let layer = ctx.layer_id_at(egui::pos2(position.x, position.y));
+                layer.is_some_and(|l| l.order != egui::Order::Background)
+                    || ctx.egui_is_using_pointer()
+                    || ctx.any_popup_open()
+            });
+            viewport.contains(position) && !above
+        });
+    }
+    pointer.set_if_neq(now);
+    let wanted = pointer.position.filter(|_| pointer.in_viewport).map(|p| viewport.pixel(p));
+    if picker.wanted != wanted {
+        picker.wanted = wanted;
+    }
+}

@@ -1,0 +1,74 @@
+//! Frames only when there is something new to show.
+//!
+//! The window runs in reactive mode with an endless wait: events of the window, [`Waker::wake`] from other
+//! threads and `RequestRedraw` messages are the only things that cause a frame. bevy_egui 0.42 reports the
+//! modifier keys anew every frame and egui repaints on every event, so unchanged reports are dropped:
+//! without that an idle window draws for ever.
+
+use std::time::Duration;
+
+use bevy::prelude::*;
+use bevy::window::RequestRedraw;
+use bevy::winit::{EventLoopProxyWrapper, UpdateMode, WinitSettings, WinitUserEvent};
+use bevy_egui::{EguiInput, EguiPreUpdateSet, egui};
+
+use super::tools::CommandRequest;
+
+/// Wakes the window from any thread.
+#[derive(Resource, Clone, Default)]
+pub struct Waker(Option<bevy::winit::EventLoopProxy<WinitUserEvent>>);
+
+impl Waker {
+    /// Causes a frame soon. Does nothing without a window.
+    pub fn wake(&self) {
+        if let Some(proxy) = &self.0 {
+            // Fails only when the event loop has ended: nothing left to wake.
+            let _ = proxy.send_event(WinitUserEvent::WakeUp);
+        }
+    }
+}
+
+/// Adds reactive redrawing.
+pub struct RedrawPlugin;
+
+impl Plugin for RedrawPlugin {
+    fn build(&self, app: &mut App) {
+        let wait = UpdateMode::reactive_low_power(Duration::MAX);
+        app.init_resource::<Waker>()
+            .insert_resource(WinitSettings { focused_mode: wait, unfocused_mode: wait })
+            .add_systems(PreStartup, connect)
+            .add_systems(
+                PreUpdate,
+                drop_unchanged_modifiers
+                    .after(EguiPreUpdateSet::ProcessInput)
+                    .before(EguiPreUpdateSet::BeginPass),
+            )
+            .add_systems(Last, redraw_after_commands);
+    }
+}
+
+fn connect(proxy: Option<Res<EventLoopProxyWrapper>>, mut waker: ResMut<Waker>) {
+    waker.0 = proxy.map(|p| (**p).clone());
+}
+
+/// Drops reports of modifier keys that repeat the last one.
+fn drop_unchanged_modifiers(mut inputs: Query<&mut EguiInput>, mut last: Local<egui::Modifiers>) {
+    for mut input in &mut inputs {
+        input.events.retain(|event| match event {
+            egui::Event::ModifiersChanged(modifiers) => {
+                std::mem::replace(&mut *last, *modifiers) != *modifiers
+            }
+            _ => true,
+        });
+    }
+}
+
+/// Commands sent by panels are served in the next frame: make sure there is one.
+fn redraw_after_commands(
+    mut requests: MessageReader<CommandRequest>,
+    mut redraw: MessageWriter<RequestRedraw>,
+) {
+    if requests.read().count() > 0 {
+        redraw.write(RequestRedraw);
+    }
+}

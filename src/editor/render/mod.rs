@@ -1,0 +1,153 @@
+//! From derived data to pixels: extraction, upload and the passes of the viewport.
+//!
+//! Wiring: `ExtractSchedule` copies what changed; `Core3d` runs the model pass and then the lines (grid and
+//! axes) between Bevy's opaque and transparent passes, so that depth is shared with whatever Bevy draws.
+
+mod backdrop;
+mod frame;
+mod grid;
+mod lines;
+
+use bevy::core_pipeline::Core3d;
+use bevy::core_pipeline::Core3dSystems;
+use bevy::core_pipeline::core_3d::{CORE_3D_DEPTH_FORMAT, main_opaque_pass_3d, main_transparent_pass_3d};
+use bevy::prelude::*;
+use bevy::render::sync_world::RenderEntity;
+use bevy::render::{Extract, ExtractSchedule, RenderApp, RenderStartup};
+
+use super::camera::ViewportCamera;
+
+/// Adds the viewport's rendering.
+pub struct RenderPlugin;
+
+impl Plugin for RenderPlugin {
+    fn build(&self, app: &mut App) {
+        let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
+        render_app
+            .init_resource::<frame::FrameView>()
+            .add_systems(RenderStartup, (backdrop::create, lines::create))
+            .add_systems(ExtractSchedule, (frame::extract, mark))
+            .add_systems(
+                Core3d,
+                (backdrop::draw, lines::draw)
+                    .chain()
+                    .after(main_opaque_pass_3d)
+                    .before(main_transparent_pass_3d)
+                    .in_set(Core3dSystems::MainPass),
+            );
+    }
+}
+
+/// Marks the view that shows the model, in the render world.
+#[derive(Component, Debug, Clone, Copy, Default)]
+pub(crate) struct DrawsModel;
+
+/// Marks the extracted viewport camera.
+fn mark(mut commands: Commands, cameras: Extract<Query<RenderEntity, With<ViewportCamera>>>) {
+    for entity in &cameras {
+        commands.entity(entity).insert(DrawsModel);
+    }
+}
+
+/// What a pipeline of this folder is made from.
+struct PipelineSpec<'a> {
+    label: &'static str,
+    shader: &'a wgpu::ShaderModule,
+    layout: &'a wgpu::BindGroupLayout,
+    buffers: &'a [wgpu::VertexBufferLayout<'a>],
+    blend: Option<wgpu::BlendState>,
+    depth: Option<wgpu::CompareFunction>,
+    format: wgpu::TextureFormat,
+}
+
+/// A pipeline with entry points `vertex` and `fragment`, one bind group, triangles.
+fn pipeline(device: &wgpu::Device, spec: PipelineSpec) -> wgpu::RenderPipeline {
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(spec.label),
+        bind_group_layouts: &[Some(spec.layout)],
+        immediate_size: 0,
+    });
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(spec.label),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: spec.shader,
+            entry_point: Some("vertex"),
+            compilation_options: default(),
+            buffers: spec.buffers,
+        },
+        fragment: Some(wgpu::FragmentState {
+            module: spec.shader,
+            entry_point: Some("fragment"),
+            compilation_options: default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: spec.format,
+                blend: spec.blend,
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        primitive: default(),
+        depth_stencil: spec.depth.map(|compare| wgpu::DepthStencilState {
+            format: CORE_3D_DEPTH_FORMAT,
+            depth_write_enabled: Some(false),
+            depth_compare: Some(compare),
+            stencil: default(),
+            bias: default(),
+        }),
+        multisample: default(),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+/// A uniform buffer of `bytes` with the bind group that holds it.
+fn uniform_group(
+    device: &wgpu::Device,
+    label: &'static str,
+    bytes: usize,
+) -> (wgpu::BindGroupLayout, wgpu::Buffer, wgpu::BindGroup) {
+    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(label),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        }],
+    });
+    let uniform = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout: &layout,
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() }],
+    });
+    (layout, uniform, group)
+}
+
+/// An attachment that keeps what was drawn before.
+fn keep(view: &wgpu::TextureView) -> wgpu::RenderPassColorAttachment<'_> {
+    wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
+    }
+}
+
+/// Confines a pass to the viewport's rectangle, as far as it lies inside the target.
+fn confine(pass: &mut wgpu::RenderPass, frame: &frame::FrameView, target: wgpu::Extent3d) {
+    let (min, size) = frame.viewport.physical();
+    let min = min.min(UVec2::new(target.width, target.height).saturating_sub(UVec2::ONE));
+    let size = size.min(UVec2::new(target.width, target.height) - min);
+    pass.set_viewport(min.x as f32, min.y as f32, size.x as f32, size.y as f32, 0.0, 1.0);
+    pass.set_scissor_rect(min.x, min.y, size.x, size.y);
+}

@@ -1,0 +1,36 @@
+//! Which faces are selected, hovered and shown.
+//!
+//! Wiring: messages [`SelectRequest`] and [`VisibilityRequest`] come from the viewport, the tree, the
+//! report and the command table; `ApplyEdits` turns them into the resource [`Selection`] and the component
+//! [`Shown`](super::object::Shown). Nothing else writes those.
+
+mod set;
+mod visibility;
+
+use bevy::prelude::*;
+
+pub use set::{SelectMode, SelectRequest, Selection};
+pub use visibility::VisibilityRequest;
+
+use super::EditorSystems;
+
+/// Adds selection and visibility.
+pub struct SelectionPlugin;
+
+impl Plugin for SelectionPlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<Selection>()
+            .add_message::<SelectRequest>()
+            .add_message::<VisibilityRequest>()
+            .add_systems(
+                Update,
+                (set::command_requests, visibility::command_requests).in_set(EditorSystems::Tools),
+            )
+            .add_systems(
+                Update,
+                (set::drop_despawned, set::apply, visibility::apply)
+                    .chain()
+                    .in_set(EditorSystems::ApplyEdits),
+            );
+    }
+}

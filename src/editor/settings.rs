@@ -1,0 +1,105 @@
+//! What the user chose: display mode, theme, panels, projection. Kept between runs.
+
+use std::path::PathBuf;
+
+use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::EditorSystems;
+use super::tools::{Action, CommandRequest};
+
+/// How surfaces are coloured.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DisplayMode {
+    /// Lit, in the face's own colour.
+    #[default]
+    Shaded,
+    /// Lit, each face in a colour of its own.
+    Faces,
+    /// By normalised parameters (P1, figure 10).
+    Uv,
+    /// By the number of curve evaluations (P1, figure 9).
+    Heat,
+    /// Lit, trimmed-away regions shown too.
+    Untrimmed,
+}
+
+impl DisplayMode {
+    /// All modes in the order of menu and toolbar.
+    pub const ALL: [Self; 5] = [Self::Shaded, Self::Faces, Self::Uv, Self::Heat, Self::Untrimmed];
+}
+
+/// The user's choices.
+#[derive(Resource, Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// How surfaces are coloured. Not kept between runs: it is about the model, not the user.
+    #[serde(skip)]
+    pub mode: DisplayMode,
+    /// Whether edges are drawn.
+    pub edges: bool,
+    /// Whether the ground grid is drawn.
+    pub grid: bool,
+    /// Light theme instead of the dark one.
+    pub light: bool,
+    /// Central instead of parallel projection.
+    pub perspective: bool,
+    /// Whether the model tree is shown.
+    pub tree: bool,
+    /// Whether the properties are shown.
+    pub properties: bool,
+    /// Whether the import report is shown.
+    pub report: bool,
+    /// Files opened lately, latest first.
+    pub recent: Vec<PathBuf>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            mode: DisplayMode::Shaded,
+            edges: true,
+            grid: true,
+            light: false,
+            perspective: true,
+            tree: true,
+            properties: true,
+            report: false,
+            recent: Vec::new(),
+        }
+    }
+}
+
+/// Adds the settings and the commands that switch them.
+pub struct SettingsPlugin;
+
+impl Plugin for SettingsPlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<Settings>().add_systems(Update, switch.in_set(EditorSystems::Tools));
+    }
+}
+
+/// Switches from the command table. The projection follows the camera, see `camera`.
+fn switch(mut requests: MessageReader<CommandRequest>, mut settings: ResMut<Settings>) {
+    for CommandRequest(action) in requests.read() {
+        let on = match action {
+            Action::Display(mode) => {
+                settings.mode = *mode;
+                continue;
+            }
+            Action::ToggleEdges => &mut settings.edges,
+            Action::ToggleGrid => &mut settings.grid,
+            Action::ToggleTheme => &mut settings.light,
+            Action::ToggleTree => &mut settings.tree,
+            Action::ToggleProperties => &mut settings.properties,
+            Action::ToggleReport => &mut settings.report,
+            Action::Find => {
+                settings.tree = true;
+                continue;
+            }
+            _ => continue,
+        };
+        *on = !*on;
+    }
+}

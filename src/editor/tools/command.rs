@@ -1,0 +1,307 @@
+//! The one table of commands. Menus, keys, the toolbar and the help sheet are all made from it.
+
+use bevy::input::keyboard::KeyCode;
+use bevy::prelude::Message;
+
+use super::key::Shortcut;
+use crate::editor::settings::{DisplayMode, Settings};
+use crate::kernel::view::StandardView;
+
+/// What a command does. Each capability listens for its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the table below says it in words")]
+pub enum Action {
+    Open,
+    Import,
+    OpenDemo,
+    Cancel,
+    CloseAll,
+    Quit,
+    SelectAll,
+    InvertSelection,
+    ClearSelection,
+    Find,
+    Hide,
+    Isolate,
+    ShowAll,
+    Fit,
+    FitSelection,
+    View(StandardView),
+    ToggleProjection,
+    ToggleTree,
+    ToggleProperties,
+    ToggleReport,
+    Display(DisplayMode),
+    ToggleEdges,
+    ToggleGrid,
+    ToggleTheme,
+    Shortcuts,
+    About,
+}
+
+/// Asks for a command to be done. Written by keys, menus, toolbar and tests alike.
+#[derive(Message, Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CommandRequest(pub Action);
+
+/// The menus, in order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Menu {
+    File,
+    Edit,
+    View,
+    Display,
+    Help,
+}
+
+impl Menu {
+    /// All menus from left to right.
+    pub const ALL: [Self; 5] = [Self::File, Self::Edit, Self::View, Self::Display, Self::Help];
+
+    /// Name to show.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::File => "File",
+            Self::Edit => "Edit",
+            Self::View => "View",
+            Self::Display => "Display",
+            Self::Help => "Help",
+        }
+    }
+}
+
+/// What the enabling of commands depends on.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Situation {
+    /// A model is open.
+    pub model: bool,
+    /// At least one face is selected.
+    pub selection: bool,
+    /// At least one face is hidden.
+    pub hidden: bool,
+    /// A file is being read.
+    pub loading: bool,
+}
+
+/// One command.
+#[derive(Debug)]
+pub struct Command {
+    /// What it does.
+    pub action: Action,
+    /// Stable name, for tests and scripts.
+    pub id: &'static str,
+    /// Name to show.
+    pub label: &'static str,
+    /// The menu it is in.
+    pub menu: Menu,
+    /// Whether a line separates it from the one above.
+    pub separated: bool,
+    /// Keys; the first is the one shown in the menu.
+    pub keys: &'static [Shortcut],
+    /// When it can be used.
+    pub enabled: fn(&Situation) -> bool,
+    /// Its tick mark, for what can be on or off.
+    pub checked: Option<fn(&Settings) -> bool>,
+}
+
+const fn always(_: &Situation) -> bool {
+    true
+}
+const fn with_model(s: &Situation) -> bool {
+    s.model
+}
+const fn with_selection(s: &Situation) -> bool {
+    s.selection
+}
+const fn with_hidden(s: &Situation) -> bool {
+    s.hidden
+}
+const fn while_loading(s: &Situation) -> bool {
+    s.loading
+}
+
+const fn command(
+    menu: Menu,
+    action: Action,
+    id: &'static str,
+    label: &'static str,
+    keys: &'static [Shortcut],
+) -> Command {
+    Command { action, id, label, menu, separated: false, keys, enabled: always, checked: None }
+}
+
+impl Command {
+    const fn separated(self) -> Self {
+        Self { separated: true, ..self }
+    }
+    const fn when(self, enabled: fn(&Situation) -> bool) -> Self {
+        Self { enabled, ..self }
+    }
+    const fn checked(self, checked: fn(&Settings) -> bool) -> Self {
+        Self { checked: Some(checked), ..self }
+    }
+}
+
+use Menu::{Display, Edit, File, Help, View};
+const fn key(c: char) -> Shortcut {
+    Shortcut::char(c)
+}
+const fn code(code: KeyCode) -> Shortcut {
+    Shortcut::code(code)
+}
+
+/// Every command, menu by menu in menu order.
+pub static COMMANDS: &[Command] = &[
+    command(File, Action::Open, "file.open", "Open…", &[key('o').ctrl()]),
+    command(File, Action::Import, "file.import", "Add to scene…", &[key('i').ctrl()]),
+    command(File, Action::OpenDemo, "file.demo", "Open demo scene", &[key('d').ctrl()]),
+    command(File, Action::Cancel, "file.cancel", "Cancel loading", &[code(KeyCode::Backspace)])
+        .separated()
+        .when(while_loading),
+    command(File, Action::CloseAll, "file.close", "Close all", &[key('w').ctrl()]).when(with_model),
+    command(File, Action::Quit, "file.quit", "Quit", &[key('q').ctrl()]).separated(),
+    command(Edit, Action::SelectAll, "edit.select_all", "Select all", &[key('a').ctrl()]).when(with_model),
+    command(Edit, Action::InvertSelection, "edit.invert", "Invert selection", &[key('a').ctrl().shift()])
+        .when(with_model),
+    command(Edit, Action::ClearSelection, "edit.clear", "Clear selection", &[code(KeyCode::Escape)])
+        .when(with_selection),
+    command(Edit, Action::Find, "edit.find", "Find face…", &[key('f').ctrl()]).when(with_model),
+    command(Edit, Action::Hide, "edit.hide", "Hide", &[key('h')]).separated().when(with_selection),
+    command(Edit, Action::Isolate, "edit.isolate", "Isolate", &[key('i')]).when(with_selection),
+    command(Edit, Action::ShowAll, "edit.show_all", "Show all", &[key('h').shift()]).when(with_hidden),
+    command(View, Action::Fit, "view.fit", "Fit all", &[key('f'), code(KeyCode::Home)]),
+    command(View, Action::FitSelection, "view.fit_selection", "Fit selection", &[key('z'), key('f').shift()])
+        .when(with_selection),
+    command(
+        View,
+        Action::View(StandardView::Iso),
+        "view.iso",
+        "Isometric",
+        &[code(KeyCode::Digit0), code(KeyCode::Numpad0)],
+    )
+    .separated(),
+    command(
+        View,
+        Action::View(StandardView::Front),
+        "view.front",
+        "Front",
+        &[code(KeyCode::Digit1), code(KeyCode::Numpad1)],
+    ),
+    command(
+        View,
+        Action::View(StandardView::Back),
+        "view.back",
+        "Back",
+        &[code(KeyCode::Digit2), code(KeyCode::Numpad9)],
+    ),
+    command(
+        View,
+        Action::View(StandardView::Left),
+        "view.left",
+        "Left",
+        &[code(KeyCode::Digit3), code(KeyCode::Numpad4)],
+    ),
+    command(
+        View,
+        Action::View(StandardView::Right),
+        "view.right",
+        "Right",
+        &[code(KeyCode::Digit4), code(KeyCode::Numpad3), code(KeyCode::Numpad6)],
+    ),
+    command(
+        View,
+        Action::View(StandardView::Top),
+        "view.top",
+        "Top",
+        &[code(KeyCode::Digit5), code(KeyCode::Numpad7), code(KeyCode::Numpad8)],
+    ),
+    command(
+        View,
+        Action::View(StandardView::Bottom),
+        "view.bottom",
+        "Bottom",
+        &[code(KeyCode::Digit6), code(KeyCode::Numpad2)],
+    ),
+    command(
+        View,
+        Action::ToggleProjection,
+        "view.projection",
+        "Perspective",
+        &[key('p'), code(KeyCode::Numpad5)],
+    )
+    .separated()
+    .checked(|s| s.perspective),
+    command(View, Action::ToggleTree, "view.tree", "Model tree", &[key('t')]).separated().checked(|s| s.tree),
+    command(View, Action::ToggleProperties, "view.properties", "Properties", &[key('n')])
+        .checked(|s| s.properties),
+    command(View, Action::ToggleReport, "view.report", "Import report", &[key('r')]).checked(|s| s.report),
+    command(
+        Display,
+        Action::Display(DisplayMode::Shaded),
+        "display.shaded",
+        "Shaded",
+        &[code(KeyCode::F5), key('s')],
+    )
+    .checked(|s| s.mode == DisplayMode::Shaded),
+    command(
+        Display,
+        Action::Display(DisplayMode::Faces),
+        "display.faces",
+        "Colour by face",
+        &[code(KeyCode::F6), key('c')],
+    )
+    .checked(|s| s.mode == DisplayMode::Faces),
+    command(
+        Display,
+        Action::Display(DisplayMode::Uv),
+        "display.uv",
+        "Colour by u, v",
+        &[code(KeyCode::F7), key('u')],
+    )
+    .checked(|s| s.mode == DisplayMode::Uv),
+    command(
+        Display,
+        Action::Display(DisplayMode::Heat),
+        "display.heat",
+        "Evaluation heat map",
+        &[code(KeyCode::F8), key('m')],
+    )
+    .checked(|s| s.mode == DisplayMode::Heat),
+    command(
+        Display,
+        Action::Display(DisplayMode::Untrimmed),
+        "display.untrimmed",
+        "Untrimmed",
+        &[code(KeyCode::F9), key('x')],
+    )
+    .checked(|s| s.mode == DisplayMode::Untrimmed),
+    command(Display, Action::ToggleEdges, "display.edges", "Edges", &[key('e')])
+        .separated()
+        .checked(|s| s.edges),
+    command(Display, Action::ToggleGrid, "display.grid", "Grid", &[key('g')]).checked(|s| s.grid),
+    command(Display, Action::ToggleTheme, "display.theme", "Light theme", &[key('l')])
+        .separated()
+        .checked(|s| s.light),
+    command(Help, Action::Shortcuts, "help.keys", "Keys and mouse", &[code(KeyCode::F1), key('?')]),
+    command(Help, Action::About, "help.about", "About Hairline", &[]),
+];
+
+impl Action {
+    /// Its row of the table.
+    pub fn command(self) -> Option<&'static Command> {
+        COMMANDS.iter().find(|c| c.action == self)
+    }
+}
+
+/// What the mouse does in the viewport, for the help sheet.
+pub const MOUSE_HELP: &[(&str, &str)] = &[
+    ("Left click", "Select the face under the pointer"),
+    ("Ctrl / Shift + click", "Add to or take from the selection"),
+    ("Double click", "Fit the face under the pointer"),
+    ("Middle or right drag", "Orbit about the point under the pointer"),
+    ("Alt + left drag", "Orbit, for trackpads"),
+    ("Shift + drag", "Pan (with middle, right or Alt + left)"),
+    ("Wheel", "Zoom to the pointer"),
+    ("Cube", "Turn to the view of the face, edge or corner clicked"),
+    ("Drop files", "Open them; with Shift add them to the scene"),
+];

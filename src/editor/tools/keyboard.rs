@@ -1,0 +1,70 @@
+//! From key presses to commands.
+
+use bevy::input::keyboard::KeyboardInput;
+use bevy::prelude::*;
+
+use super::command::{COMMANDS, CommandRequest, Situation};
+use super::key::Modifiers;
+use crate::editor::files::Loading;
+use crate::editor::object::{Scene, Shown};
+use crate::editor::selection::Selection;
+use crate::editor::viewport::Pointer;
+
+/// The [`Situation`] of this frame.
+#[derive(Resource, Debug, Default, Clone, Copy)]
+pub struct CurrentSituation(pub Situation);
+
+/// Looks at what is open, selected and hidden.
+pub(super) fn observe(
+    mut current: ResMut<CurrentSituation>,
+    scene: Res<Scene>,
+    selection: Res<Selection>,
+    loading: Res<Loading>,
+    shown: Query<&Shown>,
+    changed: Query<(), Changed<Shown>>,
+    mut seen: Local<u64>,
+) {
+    let hidden = if *seen != scene.revision || !changed.is_empty() {
+        *seen = scene.revision;
+        shown.iter().any(|s| !s.0)
+    } else {
+        current.0.hidden
+    };
+    current.0 = Situation {
+        model: !scene.is_empty(),
+        selection: !selection.is_empty(),
+        hidden,
+        loading: loading.is_active(),
+    };
+}
+
+/// Sends the command of each key pressed, if it is enabled now.
+pub(super) fn press(
+    mut presses: MessageReader<KeyboardInput>,
+    held: Res<ButtonInput<KeyCode>>,
+    pointer: Res<Pointer>,
+    situation: Res<CurrentSituation>,
+    mut requests: MessageWriter<CommandRequest>,
+) {
+    let modifiers = Modifiers {
+        ctrl: held.any_pressed([
+            KeyCode::ControlLeft,
+            KeyCode::ControlRight,
+            KeyCode::SuperLeft,
+            KeyCode::SuperRight,
+        ]),
+        shift: held.any_pressed([KeyCode::ShiftLeft, KeyCode::ShiftRight]),
+        alt: held.any_pressed([KeyCode::AltLeft, KeyCode::AltRight]),
+    };
+    for press in presses.read() {
+        if !press.state.is_pressed() || press.repeat || pointer.keyboard_taken {
+            continue;
+        }
+        let command = COMMANDS
+            .iter()
+            .find(|c| c.keys.iter().any(|k| k.matches(&press.logical_key, press.key_code, modifiers)));
+        if let Some(command) = command.filter(|c| (c.enabled)(&situation.0)) {
+            requests.write(CommandRequest(command.action));
+        }
+    }
+}

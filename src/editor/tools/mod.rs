@@ -1,0 +1,25 @@
+//! What the user can do: the table of commands and the keys that reach it.
+//!
+//! Wiring: `Input` turns key presses into [`CommandRequest`]s (unless a text field has the keyboard), and
+//! keeps [`Situation`] up to date; each capability reads the requests it serves in `Tools`.
+
+mod command;
+mod key;
+mod keyboard;
+
+use bevy::prelude::*;
+
+pub use command::{Action, COMMANDS, Command, CommandRequest, MOUSE_HELP, Menu, Situation};
+pub use key::{KeyCap, Modifiers, Shortcut};
+pub use keyboard::CurrentSituation;
+
+/// Adds the command table.
+pub struct ToolsPlugin;
+
+impl Plugin for ToolsPlugin {
+    fn build(&self, app: &mut App) {
+        app.add_message::<CommandRequest>()
+            .init_resource::<CurrentSituation>()
+            .add_systems(Update, (keyboard::observe, keyboard::press).chain().in_set(super::NavigationInput));
+    }
+}
