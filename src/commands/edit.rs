@@ -15,8 +15,9 @@ pub fn run(files: &[PathBuf], demo: bool) -> Result<(), Failure> {
 }
 
 #[cfg(feature = "editor")]
-fn open_editor(_files: &[PathBuf]) -> Result<(), Failure> {
-    Err(Failure::Lacking { reason: "the editor is not there yet".into() })
+fn open_editor(files: &[PathBuf]) -> Result<(), Failure> {
+    let options = crate::editor::EditorOptions { files: files.to_vec() };
+    crate::editor::run(options).map_err(|e| Failure::Lacking { reason: e.to_string() })
 }
 
 #[cfg(not(feature = "editor"))]

@@ -1,7 +1,6 @@
 //! Starting the editor: what the machine must have, said plainly when it does not.
 
-use std::path::PathBuf;
-use std::process::ExitCode;
+use std::path::{Path, PathBuf};
 
 use bevy::prelude::*;
 use bevy::render::RenderPlugin;
@@ -15,7 +14,7 @@ use super::files::{OpenFiles, SettingsStore, Source};
 /// How the editor is started.
 #[derive(Debug, Clone, Default)]
 pub struct EditorOptions {
-    /// Files to open; none opens the built-in demo scene.
+    /// Files to open; the path `demo` is the built-in demo scene, which is also opened when there are none.
     pub files: Vec<PathBuf>,
 }
 
@@ -40,17 +39,21 @@ pub enum StartError {
          `sudo apt-get install mesa-vulkan-drivers`. `hairline render --backend cpu` needs none."
     )]
     NoVulkan,
+    /// The event loop ended with an error.
+    #[error("the window ended with error {code}")]
+    Ended {
+        /// What the event loop says.
+        code: u8,
+    },
 }
 
-/// Exit code when the machine lacks what a window needs.
-const CANNOT_START: u8 = 3;
-
 /// Runs the editor until its window is closed.
-pub fn run(options: EditorOptions) -> ExitCode {
-    if let Err(error) = check_display().and_then(|()| check_vulkan()) {
-        eprintln!("hairline: {error}");
-        return ExitCode::from(CANNOT_START);
-    }
+///
+/// # Errors
+/// When the machine lacks what a window needs, or the editor ended with an error.
+pub fn run(options: EditorOptions) -> Result<(), StartError> {
+    check_display()?;
+    check_vulkan()?;
     // Frames cost most on software drivers, which gain nothing from a main world that runs ahead.
     let plugins = DefaultPlugins
         .set(WindowPlugin { primary_window: Some(window()), ..default() })
@@ -63,7 +66,7 @@ pub fn run(options: EditorOptions) -> ExitCode {
             ..default()
         })
         .set(bevy::log::LogPlugin {
-            filter: "warn,wgpu_core=error,wgpu_hal=error,bevy_winit=error,calloop=error".into(),
+            filter: "error,hairline=warn".into(),
             level: bevy::log::Level::WARN,
             ..default()
         })
@@ -72,14 +75,18 @@ pub fn run(options: EditorOptions) -> ExitCode {
     app.add_plugins(plugins)
         .insert_resource(SettingsStore::of_user())
         .add_plugins(EditorPlugin { windowed: true });
+    let source = |path: &PathBuf| match path == Path::new("demo") {
+        true => Source::Demo,
+        false => Source::File(path.clone()),
+    };
     let sources = match options.files.as_slice() {
         [] => vec![Source::Demo],
-        files => files.iter().cloned().map(Source::File).collect(),
+        files => files.iter().map(source).collect(),
     };
     app.world_mut().write_message(OpenFiles { sources, replace: true });
     match app.run() {
-        AppExit::Success => ExitCode::SUCCESS,
-        AppExit::Error(code) => ExitCode::from(code.get()),
+        AppExit::Success => Ok(()),
+        AppExit::Error(code) => Err(StartError::Ended { code: code.get() }),
     }
 }
 

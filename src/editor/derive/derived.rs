@@ -1,14 +1,17 @@
 //! What the editor keeps of a face beside its record.
 
-use glam::DVec3;
+use std::sync::Arc;
 
+use crate::kernel::face::Face;
 use crate::kernel::view::Bounds;
 use crate::scene::records::FaceRecord;
 
 /// Derived data of one face.
 #[derive(Debug, Clone)]
 pub struct Derived {
-    /// Box around the trimmed face.
+    /// Patches and trimming structure; `None` when the face cannot be drawn.
+    pub face: Option<Arc<Face>>,
+    /// Box around the face.
     pub bounds: Bounds,
     /// Trimmed area, model units squared.
     pub area: Option<f64>,
@@ -21,8 +24,16 @@ pub struct Derived {
 impl Derived {
     /// Derives everything from the record. Never fails: what went wrong is in [`Self::failure`].
     pub fn of(record: &FaceRecord) -> Self {
-        let bounds = Bounds::of(record.surface.points().iter().copied().filter(|p: &DVec3| p.is_finite()));
         let curves = record.loops.iter().map(|l| l.curves.len()).sum();
-        Self { bounds, area: None, curves, failure: None }
+        match Face::derive(record) {
+            Ok(face) => {
+                let bounds = face.bounds;
+                Self { face: Some(Arc::new(face)), bounds, area: None, curves, failure: None }
+            }
+            Err(error) => {
+                let bounds = Bounds::of(record.surface.points().iter().copied());
+                Self { face: None, bounds, area: None, curves, failure: Some(error.to_string()) }
+            }
+        }
     }
 }

@@ -1,11 +1,17 @@
 //! Reading one source, away from the window: file -> records -> derived data.
 
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
 
 use crate::editor::derive::Derived;
 use crate::editor::object::LoadedModel;
+use crate::exchange::iges;
 use crate::exchange::report::ImportReport;
+use crate::scene::demo;
 use crate::scene::records::ModelRecord;
 
 use super::Source;
@@ -16,12 +22,6 @@ pub enum LoadError {
     /// The user stopped it.
     #[error("cancelled")]
     Cancelled,
-    /// It is a kind of file that Hairline does not read.
-    #[error("{}: not an IGES file (expected .igs or .iges)", path.display())]
-    Kind {
-        /// The file.
-        path: PathBuf,
-    },
     /// It could not be read or makes no sense.
     #[error("{}: {message}", path.display())]
     Read {
@@ -31,12 +31,17 @@ pub enum LoadError {
         message: String,
     },
     /// It was read, but there is nothing to show in it.
-    #[error("{}: no surfaces found", path.display())]
+    #[error("{}: no surfaces found. {reason}", path.display())]
     Empty {
         /// The file.
         path: PathBuf,
+        /// The worst remark of the import report.
+        reason: String,
     },
 }
+
+/// Share of the progress bar that reading takes; building the structures takes the rest.
+const READING: f32 = 0.5;
 
 /// Reads `source`. `progress` gets the fraction done and says whether to go on.
 ///
@@ -47,30 +52,61 @@ pub fn read_model(
     progress: &(dyn Fn(f32, &'static str) -> bool + Sync),
 ) -> Result<LoadedModel, LoadError> {
     let (path, record, report) = match source {
-        Source::Demo => (None, demo(), ImportReport::default()),
+        Source::Demo => {
+            let report = ImportReport { origin: "built-in demo scene".into(), ..ImportReport::default() };
+            (None, demo::model(), report)
+        }
         Source::File(path) => {
-            let (record, report) = read_file(path, &|f| progress(0.5 * f, "Reading"))?;
+            let (record, report) = read_file(path, progress)?;
             (Some(path.clone()), record, report)
         }
     };
-    let count = record.faces.len();
-    let mut derived = Vec::with_capacity(count);
-    for (index, face) in record.faces.iter().enumerate() {
-        if !progress(0.5 + 0.5 * index as f32 / count as f32, "Building") {
-            return Err(LoadError::Cancelled);
-        }
-        derived.push(Some(Arc::new(Derived::of(face))));
-    }
+    let derived = derive_all(&record, progress)?;
     Ok(LoadedModel { path, record, report, derived })
 }
 
-fn demo() -> ModelRecord {
-    ModelRecord { name: "Demo".into(), ..ModelRecord::default() }
+fn derive_all(
+    record: &ModelRecord,
+    progress: &(dyn Fn(f32, &'static str) -> bool + Sync),
+) -> Result<Vec<Option<Arc<Derived>>>, LoadError> {
+    let count = record.faces.len();
+    let done = AtomicUsize::new(0);
+    let derived: Option<Vec<_>> = record
+        .faces
+        .par_iter()
+        .map(|face| {
+            let before = done.fetch_add(1, Ordering::Relaxed);
+            let fraction = READING + (1.0 - READING) * before as f32 / count as f32;
+            progress(fraction, "Building").then(|| Some(Arc::new(Derived::of(face))))
+        })
+        .collect();
+    derived.ok_or(LoadError::Cancelled)
 }
 
 fn read_file(
     path: &Path,
-    _progress: &(dyn Fn(f32) -> bool + Sync),
+    progress: &(dyn Fn(f32, &'static str) -> bool + Sync),
 ) -> Result<(ModelRecord, ImportReport), LoadError> {
-    Err(LoadError::Read { path: path.to_owned(), message: "the reader is not there yet".into() })
+    let fail = |message: String| LoadError::Read { path: path.to_owned(), message };
+    let metadata = std::fs::metadata(path).map_err(|e| fail(e.to_string()))?;
+    if !metadata.is_file() {
+        return Err(fail("it is not a file".into()));
+    }
+    let bytes = std::fs::read(path).map_err(|e| fail(e.to_string()))?;
+    let mut told = |at: iges::Progress| {
+        let fraction = READING * at.done as f32 / at.total.max(1) as f32;
+        if progress(fraction, "Reading") { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    };
+    let (mut record, report) = iges::read_with(&bytes, &mut told).map_err(|error| match error {
+        iges::ReadError::Cancelled => LoadError::Cancelled,
+        other => fail(other.to_string()),
+    })?;
+    if record.faces.is_empty() {
+        let first = report.remarks.iter().max_by_key(|r| r.severity).map(|r| r.message.clone());
+        return Err(LoadError::Empty { path: path.to_owned(), reason: first.unwrap_or_default() });
+    }
+    if let Some(name) = path.file_name() {
+        record.name = name.to_string_lossy().into_owned();
+    }
+    Ok((record, report))
 }

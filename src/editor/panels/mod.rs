@@ -123,6 +123,11 @@ fn show(
     mut owned: Owned,
 ) -> Result {
     let ctx = contexts.ctx_mut()?.clone();
+    if !theme::is_ready(&ctx) {
+        // Fonts set in this frame are there in the next.
+        writes.redraw.write(RequestRedraw);
+        return Ok(());
+    }
     let mut root = egui::Ui::new(
         ctx.clone(),
         egui::Id::new("hairline"),

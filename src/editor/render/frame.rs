@@ -9,7 +9,7 @@ use crate::editor::derive::SceneBounds;
 use crate::editor::settings::Settings;
 use crate::editor::theme::Palette;
 use crate::editor::viewport::Viewport;
-use crate::kernel::view::{Bounds, Camera as ViewPoint, Projection as ViewProjection};
+use crate::kernel::view::{Bounds, Camera as ViewPoint};
 
 /// The view of one frame.
 #[derive(Resource, Debug, Clone)]
@@ -34,13 +34,6 @@ impl Default for FrameView {
             palette: Palette::default(),
             settings: Settings::default(),
         }
-    }
-}
-
-impl FrameView {
-    /// Whether the projection is central.
-    pub fn is_perspective(&self) -> bool {
-        matches!(self.camera.projection, ViewProjection::Perspective { .. })
     }
 }
 

@@ -6,7 +6,7 @@ mod palette;
 mod style;
 
 use bevy::prelude::*;
-use bevy_egui::EguiContexts;
+use bevy_egui::{EguiContexts, egui};
 
 pub use palette::Palette;
 
@@ -22,6 +22,13 @@ pub(super) mod size {
     pub const TITLE: f32 = 18.0;
     /// Height of a row in lists.
     pub const ROW: f32 = 24.0;
+}
+
+/// Whether the fonts have arrived: they do so one frame after they are set.
+pub(super) fn is_ready(ctx: &egui::Context) -> bool {
+    ctx.fonts(|fonts| {
+        fonts.definitions().families.contains_key(&egui::FontFamily::Name(style::MEDIUM.into()))
+    })
 }
 
 /// Sets fonts once and the style whenever the theme changes.
