@@ -8,10 +8,10 @@ use super::source;
 /// Opens the editor on `files`, or on the demo scene when there are none.
 ///
 /// # Errors
-/// The build has no editor, or the machine has no display or graphics driver.
+/// A file does not exist, the build has no editor, or the machine has no display or graphics driver.
 pub fn run(files: &[PathBuf], demo: bool) -> Result<(), Failure> {
-    let files = source::or_demo(files, demo);
-    open_editor(&files)
+    files.iter().try_for_each(|path| source::check(path))?;
+    open_editor(&source::or_demo(files, demo))
 }
 
 #[cfg(feature = "editor")]

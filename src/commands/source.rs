@@ -28,11 +28,8 @@ pub fn open(path: &Path, progress: &dyn Fn(f64)) -> Result<Opened, Failure> {
         let report = ImportReport { origin: "built-in demo scene".into(), ..ImportReport::default() };
         return Ok(Opened { model: demo::model(), report });
     }
+    check(path)?;
     let fail = |reason: String| Failure::Input { path: path.into(), reason };
-    let metadata = fs::metadata(path).map_err(|e| fail(plain(&e)))?;
-    if metadata.is_dir() {
-        return Err(fail("it is a directory".into()));
-    }
     let bytes = fs::read(path).map_err(|e| fail(plain(&e)))?;
     if bytes.is_empty() {
         return Err(fail("the file is empty (0 bytes)".into()));
@@ -46,6 +43,20 @@ pub fn open(path: &Path, progress: &dyn Fn(f64)) -> Result<Opened, Failure> {
         model.name = stem.to_string_lossy().into_owned();
     }
     Ok(Opened { model, report })
+}
+
+/// Checks that there is a file at `path` without reading it; the path `demo` always passes.
+///
+/// # Errors
+/// Nothing is there, or a directory.
+pub fn check(path: &Path) -> Result<(), Failure> {
+    let fail = |reason: String| Failure::Input { path: path.into(), reason };
+    match fs::metadata(path) {
+        _ if path == Path::new("demo") => Ok(()),
+        Ok(metadata) if metadata.is_dir() => Err(fail("it is a directory".into())),
+        Ok(_) => Ok(()),
+        Err(error) => Err(fail(plain(&error))),
+    }
 }
 
 /// One line for standard error on what an import lost or repaired; `None` when there is nothing to say.

@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use crate::exchange::report::{ImportReport, Remark, Severity};
 use crate::kernel::face::Face;
+use crate::kernel::query::face_area;
 use crate::kernel::trim::TrimStructure;
 use crate::kernel::view::Bounds;
 use crate::scene::records::{FaceRecord, LengthUnit, ModelRecord, SourceRecord};
@@ -165,8 +166,8 @@ struct Derived {
 impl Derived {
     fn new(record: &FaceRecord) -> Result<Self, String> {
         let face = Face::derive(record).map_err(|e| e.to_string())?;
-        let bounds = face.bounds;
-        Ok(Self { area: None, bounds, face })
+        let area = face_area(&face).value;
+        Ok(Self { area: area.is_finite().then_some(area), bounds: face.bounds, face })
     }
 }
 

@@ -1,0 +1,114 @@
+//! `hairline render`: a picture of a model as a PNG file.
+//!
+//! The model becomes a packed scene ([`pack`]), the view a camera ([`framing`]), and either the graphics
+//! driver or the processor draws; both run the same algorithm on the same buffers.
+
+mod framing;
+mod pack;
+
+pub use framing::camera_for;
+pub use pack::pack;
+
+use std::path::Path;
+
+use super::arguments::{Backend, Mode, RenderArguments};
+use super::failure::Failure;
+use super::progress::Progress;
+use super::{output, source};
+use crate::encoding::{DisplayMode, Image, PackedScene, RenderOptions};
+
+/// Draws `arguments.file` into `arguments.output`.
+///
+/// # Errors
+/// The input cannot be read, the output not written, or the graphics driver asked for is missing.
+pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
+    output::check_writable(&arguments.output)?;
+    let progress = Progress::start(format!("reading {}", arguments.file.display()));
+    let opened = source::open(&arguments.file, &|part| progress.set(part))?;
+    drop(progress);
+    if let Some(line) = source::remarks_line(&arguments.file, &opened.report) {
+        eprintln!("hairline: note: {line}");
+    }
+    let progress = Progress::start("preparing faces");
+    let (mut scene, problems) = pack(&opened.model, &|part| progress.set(part));
+    drop(progress);
+    for problem in problems {
+        eprintln!("hairline: note: {}: {problem}; the face is left out", arguments.file.display());
+    }
+    let size = [arguments.size.width, arguments.size.height];
+    let aspect = f64::from(size[0]) / f64::from(size[1]);
+    let camera = camera_for(arguments.view, &opened.model, &scene, aspect)?;
+    let options = RenderOptions {
+        samples: arguments.samples,
+        mode: mode(arguments.mode),
+        ..RenderOptions::new(camera, size)
+    };
+    let progress = Progress::start("drawing");
+    let image = draw(&mut scene, &options, arguments.backend)?;
+    drop(progress);
+    write_png(&image, &arguments.output)
+}
+
+fn mode(mode: Mode) -> DisplayMode {
+    match mode {
+        Mode::Shaded => DisplayMode::Shaded,
+        Mode::Faces => DisplayMode::Faces,
+        Mode::Uv => DisplayMode::Uv,
+        Mode::Heat => DisplayMode::Heat,
+        Mode::Untrimmed => DisplayMode::Untrimmed,
+    }
+}
+
+/// Draws with `backend`, or with the graphics driver if there is one and else with the processor.
+///
+/// # Errors
+/// The graphics driver was asked for and there is none, or it fails.
+pub fn draw(
+    scene: &mut PackedScene,
+    options: &RenderOptions,
+    backend: Option<Backend>,
+) -> Result<Image, Failure> {
+    match backend {
+        Some(Backend::Cpu) => draw_on_cpu(scene, options),
+        Some(Backend::Gpu) => draw_on_gpu(scene, options),
+        None => match draw_on_gpu(scene, options) {
+            Err(Failure::Lacking { reason }) => {
+                eprintln!("hairline: note: {reason}; the processor draws instead");
+                draw_on_cpu(scene, options)
+            }
+            result => result,
+        },
+    }
+}
+
+#[cfg(feature = "gpu")]
+fn draw_on_gpu(scene: &mut PackedScene, options: &RenderOptions) -> Result<Image, Failure> {
+    use crate::gpu::{Context, GpuError, render_image};
+    let result = Context::headless().and_then(|context| render_image(&context, scene, options));
+    result.map_err(|error| match error {
+        GpuError::NoDriver { .. } => Failure::Lacking { reason: error.to_string() },
+        _ => Failure::Work { reason: error.to_string() },
+    })
+}
+
+#[cfg(not(feature = "gpu"))]
+fn draw_on_gpu(_scene: &mut PackedScene, _options: &RenderOptions) -> Result<Image, Failure> {
+    Err(Failure::Lacking { reason: "this program was built without graphics drivers (feature `gpu`)".into() })
+}
+
+fn draw_on_cpu(_scene: &PackedScene, _options: &RenderOptions) -> Result<Image, Failure> {
+    Err(Failure::Lacking { reason: "the processor cannot draw yet".into() })
+}
+
+fn write_png(image: &Image, path: &Path) -> Result<(), Failure> {
+    let fail = |e: png::EncodingError| Failure::Output { path: path.into(), reason: e.to_string() };
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, image.width, image.height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    let mut writer = encoder.write_header().map_err(fail)?;
+    writer.write_image_data(&image.rgba).map_err(fail)?;
+    writer.finish().map_err(fail)?;
+    output::write_whole(path, &bytes)
+}
