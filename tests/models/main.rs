@@ -1,3 +1,4 @@
 //! Real CAD files against independent ground truth.
 
+mod cli;
 mod import;
