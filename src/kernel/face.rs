@@ -2,35 +2,18 @@
 //! parity grid over the same rectangle normalised to the unit square. Derived from a
 //! [`FaceRecord`], never stored.
 
-use glam::{DVec2, Vec2};
+use glam::DVec2;
+use rayon::prelude::*;
 
 use super::bezier::BezierPatch;
+use super::nurbs::NurbsSurface;
 use super::trim::grid::GridOptions;
+use super::trim::loops::{self, TrimLoops};
 use super::trim::pack::{PackedSegments, TooManySegments};
-use super::trim::{ParityGrid, PieceList, SegmentSet, TrimStructure};
+use super::trim::{FillRule, IntervalLists, ParityGrid, PieceList, SegmentSet, TrimStructure, oracle};
+pub use super::trim::{TrimRemark, UvRect};
 use super::view::Bounds;
-use crate::scene::records::FaceRecord;
-
-/// A rectangle of native parameters.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct UvRect {
-    /// Smallest u and v.
-    pub min: DVec2,
-    /// Largest u and v.
-    pub max: DVec2,
-}
-
-impl UvRect {
-    /// Native to normalised parameters.
-    pub fn normalise(&self, native: DVec2) -> DVec2 {
-        (native - self.min) / (self.max - self.min)
-    }
-
-    /// Normalised to native parameters.
-    pub fn native(&self, uv: DVec2) -> DVec2 {
-        self.min + uv * (self.max - self.min)
-    }
-}
+use crate::scene::records::{FaceRecord, ModelRecord};
 
 /// Where a point lies with respect to a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,6 +62,10 @@ pub enum FaceError {
 pub struct Face {
     /// Rectangle of native parameters that the unit square of trimming stands for.
     pub domain: UvRect,
+    /// Domain of the surface's knots.
+    pub surface_domain: UvRect,
+    /// Period in u and v where loops made it matter, else 0.
+    pub period: DVec2,
     /// Patches that cover the domain; their `uv_min..uv_max` are native parameters (beyond the knots of a
     /// periodic surface they are shifted copies). Patches with nothing inside are left out.
     pub patches: Vec<BezierPatch>,
@@ -90,9 +77,16 @@ pub struct Face {
     pub grid: ParityGrid,
     /// Numbers along the pipeline.
     pub counts: PipelineCounts,
+    /// What was repaired in the loops.
+    pub remarks: Vec<TrimRemark>,
     /// Box around the patches' control points.
     pub bounds: Bounds,
 }
+
+/// Distance (normalised) within which a point is on a trim curve: the precision of trimming in f32.
+pub const ON_TOLERANCE: f64 = 1e-7;
+/// Nearer than this to a trim curve the f64 oracle decides instead of the grid.
+const NEAR: f64 = 2e-6;
 
 impl Face {
     /// Derives patches and trimming of one face.
@@ -100,26 +94,133 @@ impl Face {
     /// # Errors
     /// See [`FaceError`].
     pub fn derive(record: &FaceRecord) -> Result<Self, FaceError> {
-        let surface = &record.surface;
-        let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
-        let domain = UvRect { min: DVec2::new(u0, v0), max: DVec2::new(u1, v1) };
-        let mut pieces = PieceList::default();
-        let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
-        for i in 0..4 {
-            pieces.push(&[corners[i], corners[(i + 1) % 4]], &[1.0, 1.0], None);
-        }
-        pieces.close_chain();
-        let segments = SegmentSet::new(&pieces);
-        let packed = PackedSegments::new(&pieces, &segments)?;
-        let grid = ParityGrid::new(&segments, &packed, &GridOptions::default());
-        let patches = surface.to_bezier();
-        let bounds = patches.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
-        Ok(Self { domain, patches, pieces, segments, grid, counts: PipelineCounts::default(), bounds })
+        Self::derive_with(record, &GridOptions::default())
     }
 
-    /// Where the native point `(u, v)` lies, by the grid (never [`Side::On`]).
-    pub fn classify_native(&self, u: f64, v: f64) -> Side {
-        let p = self.domain.normalise(DVec2::new(u, v));
-        if self.grid.classify(Vec2::new(p.x as f32, p.y as f32)) { Side::In } else { Side::Out }
+    /// The same with choices for the grid.
+    ///
+    /// # Errors
+    /// See [`FaceError`].
+    pub fn derive_with(record: &FaceRecord, options: &GridOptions) -> Result<Self, FaceError> {
+        let trim = loops::prepare(&record.surface, &record.loops);
+        let TrimLoops { domain, pieces, bezier, period, remarks } = trim;
+        if !domain.has_area() {
+            return Err(FaceError::EmptyDomain { domain });
+        }
+        let segments = SegmentSet::new(&pieces);
+        let packed = PackedSegments::new(&pieces, &segments)?;
+        let grid = ParityGrid::new(&segments, &packed, options);
+        let patches = cover(&record.surface, &domain, period);
+        let patches: Vec<_> = patches.into_iter().filter(|p| is_needed(&grid, &domain, p)).collect();
+        let bounds = patches.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+        let counts = PipelineCounts {
+            nurbs: record.loops.iter().map(|l| l.curves.len()).sum(),
+            bezier,
+            monotone: pieces.pieces().len(),
+            kept: segments.segments.iter().filter(|s| !s.is_horizontal()).count(),
+            clipped: IntervalLists::count_clipped(&segments),
+            entries: grid.entries.len(),
+        };
+        let surface_domain = UvRect::of_surface(&record.surface);
+        Ok(Self { domain, surface_domain, period, patches, pieces, segments, grid, counts, remarks, bounds })
     }
+
+    /// Derives all faces of a model, in parallel, in the model's order.
+    pub fn derive_all(model: &ModelRecord) -> Vec<Result<Self, FaceError>> {
+        model.faces.par_iter().map(Self::derive).collect()
+    }
+
+    /// P1's structure over the same segments, for its tables and as the baseline.
+    pub fn interval_lists(&self) -> IntervalLists {
+        IntervalLists::new(&self.pieces, &self.segments, FillRule::EvenOdd)
+    }
+
+    /// Where the native point `(u, v)` lies; [`Side::On`] within [`ON_TOLERANCE`] of a trim curve. On a
+    /// closed surface whose loops run past its knots, a point of the surface far outside of the domain
+    /// stands for its image a period away; one close to the domain is taken literally.
+    pub fn classify_native(&self, u: f64, v: f64) -> Side {
+        let native = DVec2::new(u, v);
+        let side = self.classify_normalised(self.domain.normalise(native));
+        if side == Side::Out && self.is_far(native) && self.surface_domain.contains(native) {
+            let images = self.images(native).map(|p| self.classify_normalised(self.domain.normalise(p)));
+            return images.fold(Side::Out, |a, b| if a == Side::Out { b } else { a });
+        }
+        side
+    }
+
+    /// Where a normalised point lies.
+    pub fn classify_normalised(&self, p: DVec2) -> Side {
+        if !p.is_finite() || p.min_element() < -ON_TOLERANCE || p.max_element() > 1.0 + ON_TOLERANCE {
+            return Side::Out;
+        }
+        let inside = if !oracle::is_on(&self.pieces, p, NEAR) {
+            self.grid.classify(p.as_vec2())
+        } else if oracle::is_on(&self.pieces, p, ON_TOLERANCE) {
+            return Side::On;
+        } else {
+            oracle::inside(&self.pieces, p, FillRule::EvenOdd)
+        };
+        if inside { Side::In } else { Side::Out }
+    }
+
+    /// Whether a point of a closed surface is further from the domain than its surroundings.
+    fn is_far(&self, native: DVec2) -> bool {
+        const SURROUNDINGS: f64 = 0.05;
+        let p = self.domain.normalise(native);
+        let beyond = (-p).max(p - 1.0);
+        (0..2).any(|axis| self.period[axis] != 0.0 && beyond[axis] > SURROUNDINGS)
+    }
+
+    /// The images of a point, whole periods away, that lie in the domain.
+    fn images(&self, native: DVec2) -> impl Iterator<Item = DVec2> {
+        let along = |axis: usize| -> Vec<f64> {
+            let period = self.period[axis];
+            if period == 0.0 {
+                return vec![0.0];
+            }
+            let slack = ON_TOLERANCE * self.domain.size()[axis];
+            let first = ((self.domain.min[axis] - slack - native[axis]) / period).ceil();
+            let last = ((self.domain.max[axis] + slack - native[axis]) / period).floor();
+            let count = if last >= first { (last - first) as usize + 1 } else { 0 };
+            (0..count.min(8)).map(|k| (first + k as f64) * period).collect()
+        };
+        let (us, vs) = (along(0), along(1));
+        us.into_iter().flat_map(move |u| vs.clone().into_iter().map(move |v| native + DVec2::new(u, v)))
+    }
+}
+
+/// The surface's patches over `domain`, shifted copies included.
+fn cover(surface: &NurbsSurface, domain: &UvRect, period: DVec2) -> Vec<BezierPatch> {
+    let rect = UvRect::of_surface(surface);
+    let shifts = |axis: usize| -> Vec<f64> {
+        let period = period[axis];
+        if period == 0.0 {
+            return vec![0.0];
+        }
+        let first = ((domain.min[axis] - rect.max[axis]) / period).floor();
+        let last = ((domain.max[axis] - rect.min[axis]) / period).ceil();
+        let count = ((last - first).clamp(0.0, 16.0)) as usize + 1;
+        (0..count).map(|k| (first + k as f64) * period).collect()
+    };
+    let patches = surface.to_bezier();
+    let slack = 1e-12 * domain.size();
+    let mut result = Vec::new();
+    for by in shifts(0).iter().flat_map(|u| shifts(1).into_iter().map(|v| DVec2::new(*u, v))) {
+        for patch in &patches {
+            let (min, max) = (patch.uv_min + by, patch.uv_max + by);
+            let overlaps = (max - slack).cmpgt(domain.min).all() && (min + slack).cmplt(domain.max).all();
+            if overlaps {
+                result.push(BezierPatch { uv_min: min, uv_max: max, ..patch.clone() });
+            }
+        }
+    }
+    result
+}
+
+/// Whether part of the face may lie in a patch's rectangle (P1's redundancy step).
+fn is_needed(grid: &ParityGrid, domain: &UvRect, patch: &BezierPatch) -> bool {
+    let (min, max) = (domain.normalise(patch.uv_min), domain.normalise(patch.uv_max));
+    let (low, high) = (min.max(DVec2::ZERO), max.min(DVec2::ONE));
+    let middle = (0.5 * (low + high)).as_vec2();
+    grid.classify(middle) || grid.has_segments((low - 1e-6).as_vec2(), (high + 1e-6).as_vec2())
 }

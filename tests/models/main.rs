@@ -2,3 +2,5 @@
 
 mod cli;
 mod import;
+mod points;
+mod truth;

@@ -2,6 +2,8 @@
 //!
 //! Every table takes its rivals and its floor in the same run, so that the ratios hold on any machine.
 
+pub mod shapes;
+
 use super::arguments::{BenchArguments, Table};
 use super::failure::Failure;
 

@@ -10,17 +10,27 @@
 //! `v_lower <= v < v_upper` (decided on shared f32 vertices) and its `u(v) > u`.
 
 pub mod brute;
+pub mod chain;
+pub mod clip;
+pub mod domain;
 pub mod fat;
 pub mod grid;
+pub mod intervals;
+pub mod loops;
+pub mod oracle;
 pub mod pack;
 pub mod pieces;
 pub mod record;
+pub mod remark;
 pub mod segment;
 pub mod tally;
 
 pub use brute::BruteForce;
+pub use domain::{Periods, UvRect};
 pub use grid::ParityGrid;
+pub use intervals::IntervalLists;
 pub use pieces::{Piece, PieceList};
+pub use remark::TrimRemark;
 pub use segment::{Segment, SegmentSet};
 pub use tally::{Counters, Tally};
 

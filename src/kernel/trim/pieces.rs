@@ -95,3 +95,20 @@ impl PieceList {
         self.points[piece.first as usize + piece.degree as usize]
     }
 }
+
+impl PieceList {
+    /// Splits closed loops of Bezier curves into monotone pieces. Curves within `straight` of the segment
+    /// between their ends become lines.
+    pub fn from_loops(loops: &[Vec<crate::kernel::bezier::BezierCurve2>], straight: f64) -> Self {
+        let mut list = Self::default();
+        let mut splitter = crate::kernel::bezier::MonotoneSplitter::default();
+        for curves in loops {
+            for (number, curve) in curves.iter().enumerate() {
+                let source = Some(number as u32);
+                splitter.split(&curve.points, &curve.weights, straight, |p, w| list.push(p, w, source));
+            }
+            list.close_chain();
+        }
+        list
+    }
+}

@@ -64,3 +64,33 @@ impl TrimStructure for ParityGrid {
         size_of::<GridHeader>() + 4 * (self.cells.len() + self.entries.len()) + 16 * self.data.len()
     }
 }
+
+impl ParityGrid {
+    /// Whether the box of some listed segment meets the rectangle `min..max` (normalised). Segments on
+    /// the border of the unit square are in no list.
+    pub fn has_segments(&self, min: Vec2, max: Vec2) -> bool {
+        let header = &self.header;
+        if header.columns == 0 {
+            return false;
+        }
+        let index = |x: f32, scale: f32, count: u32| ((x.max(0.0) * scale) as u32).min(count - 1);
+        let (c0, c1) =
+            (index(min.x, header.scale_u, header.columns), index(max.x, header.scale_u, header.columns));
+        let (r0, r1) = (index(min.y, header.scale_v, header.rows), index(max.y, header.scale_v, header.rows));
+        (r0..=r1).any(|row| {
+            (c0..=c1).any(|column| self.cell_meets((row * header.columns + column) as usize, min, max))
+        })
+    }
+
+    fn cell_meets(&self, cell: usize, min: Vec2, max: Vec2) -> bool {
+        if self.cells[cell] & layout::CELL_REFINED != 0 {
+            return true;
+        }
+        let (first, end) =
+            (self.cells[cell] >> layout::CELL_SHIFT, self.cells[cell + 1] >> layout::CELL_SHIFT);
+        self.entries[first as usize..end as usize].iter().any(|entry| {
+            let [u0, v0, u1, v1] = super::record::load(&self.data, (entry >> layout::ENTRY_SHIFT) as usize);
+            u0.min(u1) <= max.x && u0.max(u1) >= min.x && v0 <= max.y && v1 >= min.y
+        })
+    }
+}

@@ -1,0 +1,300 @@
+//! Trim loops of a face record to closed chains of monotone pieces over the unit square.
+//!
+//! The domain is the box around the loops, cut to the surface in directions in which it is not closed. On closed
+//! surfaces loops may lie a period away from each other: they are shifted to the largest one, and copied where
+//! they reach over the seam. Rings (loops that go once round) are continued over the whole domain and
+//! closed along one border, so that even-odd gives the band between two of them. Orientation and role are
+//! not trusted, except that loops which are all marked as inner are holes in the whole surface.
+
+use glam::DVec2;
+
+use super::chain::{Chain, ChainLayer};
+use super::clip;
+use super::domain::{Periods, UvRect};
+use super::pieces::PieceList;
+use super::remark::TrimRemark;
+use crate::kernel::bezier::{BezierCurve2, MonotoneSplitter};
+use crate::kernel::nurbs::NurbsSurface;
+use crate::scene::records::{LoopRecord, LoopRole};
+
+/// Curves flatter than this, in units of the face's size, are lines.
+const STRAIGHT: f64 = 2e-9;
+/// Relative slack when boxes are compared.
+const SLACK: f64 = 1e-6;
+
+/// Loops ready for trimming.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrimLoops {
+    /// Rectangle of native parameters that the pieces' unit square stands for.
+    pub domain: UvRect,
+    /// Monotone pieces in normalised parameters.
+    pub pieces: PieceList,
+    /// Number of Bezier curves before the monotone split.
+    pub bezier: usize,
+    /// Period in u and v, 0 where not closed (or never needed).
+    pub period: DVec2,
+    /// What was repaired.
+    pub remarks: Vec<TrimRemark>,
+}
+
+/// Prepares the loops of a face. Without loops the surface's own border is the only one.
+pub fn prepare(surface: &NurbsSurface, loops: &[LoopRecord]) -> TrimLoops {
+    let mut remarks = Vec::new();
+    let rect = UvRect::of_surface(surface);
+    let mut known: Option<Periods> = None;
+    let hull = hull_of_loops(loops);
+    let scale = if hull.has_area() { hull.size() } else { rect.size() };
+    let mut periods = || *known.get_or_insert_with(|| Periods::of_surface(surface));
+    let mut chains = Vec::new();
+    for (loop_index, record) in loops.iter().enumerate() {
+        let mut layer = ChainLayer { surface: rect, scale, periods: &mut periods, remarks: &mut remarks };
+        chains.extend(layer.lay(loop_index, &record.curves));
+    }
+    let reaches_out = (rect.min - hull.min).max_element() > SLACK * scale.max_element()
+        || (hull.max - rect.max).max_element() > SLACK * scale.max_element();
+    if reaches_out {
+        periods();
+    }
+    let holes_only = !loops.is_empty() && loops.iter().all(|l| l.role == LoopRole::Inner);
+    let rings = chains.iter().any(|c| c.turns != DVec2::ZERO);
+    if chains.is_empty() || (holes_only && !rings) {
+        if !loops.is_empty() {
+            remarks.push(TrimRemark::NoOuterLoop);
+        }
+        chains.push(rectangle(rect));
+    }
+    let bezier = chains.iter().map(|c| c.curves.iter().filter(|c| c.1.is_some()).count()).sum();
+    let arranger = Arranger { rect, periods: known.unwrap_or_default(), remarks: &mut remarks };
+    let (chains, domain) = arranger.arrange(chains);
+    let mut pieces = split(&chains, &domain);
+    let overshoot = clip::overshoot(&pieces);
+    if overshoot > 0.0 {
+        if overshoot > SLACK && known.is_none_or(|p| p.period == DVec2::ZERO) {
+            remarks.push(TrimRemark::BeyondSurface { relative: overshoot });
+        }
+        pieces = clip::to_unit_square(&pieces);
+    }
+    TrimLoops { domain, pieces, bezier, period: known.unwrap_or_default().period, remarks }
+}
+
+fn hull_of_loops(loops: &[LoopRecord]) -> UvRect {
+    let mut hull = UvRect::EMPTY;
+    for curve in loops.iter().flat_map(|l| &l.curves) {
+        curve.points().iter().for_each(|p| hull.include(*p));
+    }
+    hull
+}
+
+fn rectangle(rect: UvRect) -> Chain {
+    let corners = rect.corners();
+    let side = |i: usize| (BezierCurve2::polynomial(vec![corners[i], corners[(i + 1) % 4]]), None);
+    Chain { loop_index: 0, curves: (0..4).map(side).collect(), turns: DVec2::ZERO }
+}
+
+/// Exact box of a chain.
+fn bounds(chain: &Chain) -> UvRect {
+    let mut rect = UvRect::EMPTY;
+    let mut splitter = MonotoneSplitter::default();
+    for (curve, _) in &chain.curves {
+        splitter.split(&curve.points, &curve.weights, 0.0, |p, _| {
+            rect.include(p[0]);
+            rect.include(p[p.len() - 1]);
+        });
+    }
+    rect
+}
+
+fn shifted(chain: &Chain, by: DVec2) -> Chain {
+    let curves = chain.curves.iter().map(|(c, s)| (c.map_points(|p| p + by), *s)).collect();
+    Chain { curves, ..*chain }
+}
+
+/// Monotone pieces of all chains, normalised to `domain`.
+fn split(chains: &[Chain], domain: &UvRect) -> PieceList {
+    let mut list = PieceList::default();
+    let mut splitter = MonotoneSplitter::default();
+    let mut points = Vec::new();
+    for chain in chains {
+        for (curve, source) in &chain.curves {
+            points.clear();
+            points.extend(curve.points.iter().map(|p| domain.normalise(*p)));
+            splitter.split(&points, &curve.weights, STRAIGHT, |p, w| list.push(p, w, *source));
+        }
+        list.close_chain();
+    }
+    list
+}
+
+struct Arranger<'a> {
+    rect: UvRect,
+    periods: Periods,
+    remarks: &'a mut Vec<TrimRemark>,
+}
+
+impl Arranger<'_> {
+    /// All chains closed and in one place, with the domain.
+    fn arrange(mut self, chains: Vec<Chain>) -> (Vec<Chain>, UvRect) {
+        let (rings, closed): (Vec<_>, Vec<_>) = chains.into_iter().partition(|c| c.turns != DVec2::ZERO);
+        let boxes: Vec<UvRect> = closed.iter().map(bounds).collect();
+        if !rings.is_empty() {
+            return self.with_rings(rings, closed, &boxes);
+        }
+        let all = boxes.iter().fold(UvRect::EMPTY, |a, b| a.union(*b));
+        let mut domain = self.on_surface(all);
+        if self.periods.period == DVec2::ZERO || closed.len() < 2 {
+            return (closed, domain);
+        }
+        let area = |r: &UvRect| r.size().x * r.size().y;
+        let largest =
+            (0..boxes.len()).max_by(|a, b| area(&boxes[*a]).total_cmp(&area(&boxes[*b]))).unwrap_or(0);
+        let main = boxes[largest];
+        let mut placed = Vec::new();
+        domain = main;
+        for (i, chain) in closed.into_iter().enumerate() {
+            if i == largest {
+                placed.push(chain);
+                continue;
+            }
+            for by in self.places(&boxes[i], &main) {
+                let full = self.is_full(&main);
+                let moved = UvRect { min: boxes[i].min + by, max: boxes[i].max + by };
+                for axis in 0..2 {
+                    if !full[axis] {
+                        domain.min[axis] = domain.min[axis].min(moved.min[axis]);
+                        domain.max[axis] = domain.max[axis].max(moved.max[axis]);
+                    }
+                }
+                placed.push(if by == DVec2::ZERO { chain.clone() } else { shifted(&chain, by) });
+            }
+        }
+        (placed, self.on_surface(domain))
+    }
+
+    /// Cuts a box to the surface where that is not closed.
+    fn on_surface(&self, mut rect: UvRect) -> UvRect {
+        for axis in 0..2 {
+            if self.periods.period[axis] == 0.0 {
+                rect.min[axis] = rect.min[axis].max(self.rect.min[axis]);
+                rect.max[axis] = rect.max[axis].min(self.rect.max[axis]);
+            }
+        }
+        rect
+    }
+
+    /// In which directions `main` spans a whole period.
+    fn is_full(&self, main: &UvRect) -> [bool; 2] {
+        [0, 1].map(|axis| {
+            let period = self.periods.period[axis];
+            period > 0.0 && main.size()[axis] > (1.0 - SLACK) * period
+        })
+    }
+
+    /// Shifts by whole periods that bring a box into `main`: one, or all that overlap it where `main`
+    /// spans a whole period.
+    fn places(&self, rect: &UvRect, main: &UvRect) -> Vec<DVec2> {
+        let full = self.is_full(main);
+        let along = |axis: usize| -> Vec<f64> {
+            let period = self.periods.period[axis];
+            if period == 0.0 {
+                return vec![0.0];
+            }
+            let (low, high) = (rect.min[axis], rect.max[axis]);
+            let slack = SLACK * period;
+            let outside =
+                |by: f64| (main.min[axis] - low - by).max(0.0) + (high + by - main.max[axis]).max(0.0);
+            let centre = ((main.min[axis] + main.max[axis] - low - high) / (2.0 * period)).round();
+            let candidates = [-1.0, 0.0, 1.0].map(|k| (centre + k) * period);
+            let best =
+                candidates.into_iter().min_by(|a, b| outside(*a).total_cmp(&outside(*b))).unwrap_or(0.0);
+            // Not moved without need.
+            let best = if outside(0.0) <= outside(best) + slack { 0.0 } else { best };
+            if !full[axis] || outside(best) <= slack {
+                return vec![best];
+            }
+            let overlaps = |by: f64| high + by > main.min[axis] + slack && low + by < main.max[axis] - slack;
+            candidates.into_iter().filter(|by| overlaps(*by)).collect()
+        };
+        let (us, vs) = (along(0), along(1));
+        us.iter().flat_map(|u| vs.iter().map(|v| DVec2::new(*u, *v))).collect()
+    }
+
+    fn with_rings(
+        &mut self,
+        rings: Vec<Chain>,
+        closed: Vec<Chain>,
+        boxes: &[UvRect],
+    ) -> (Vec<Chain>, UvRect) {
+        // Rings that go round both ways are taken by the direction of u.
+        let axis = if rings[0].turns.x != 0.0 { 0 } else { 1 };
+        let other = 1 - axis;
+        let period = self.periods.period[axis];
+        let mut domain = self.rect;
+        domain.max[axis] = domain.min[axis] + period;
+        let ring_boxes: Vec<UvRect> = rings.iter().map(bounds).collect();
+        let close_high = self.close_high(&rings, axis);
+        // With an even number of rings the border they close along cancels out: cut there.
+        let all = ring_boxes.iter().chain(boxes).fold(UvRect::EMPTY, |a, b| a.union(*b));
+        if rings.len() % 2 == 0 {
+            domain.min[other] = all.min[other];
+            domain.max[other] = all.max[other];
+        } else if close_high {
+            domain.min[other] = all.min[other];
+        } else {
+            domain.max[other] = all.max[other];
+        }
+        let domain = self.on_surface(domain);
+        let border = if close_high { domain.max[other] } else { domain.min[other] };
+        let mut chains = Vec::new();
+        for (ring, rect) in rings.iter().zip(&ring_boxes) {
+            self.remarks.push(TrimRemark::OpenByPeriod { loop_index: ring.loop_index });
+            chains.push(close_ring(ring, rect, axis, period, &domain, border));
+        }
+        for (chain, rect) in closed.iter().zip(boxes) {
+            chains.extend(self.places(rect, &domain).into_iter().map(|by| shifted(chain, by)));
+        }
+        (chains, domain)
+    }
+
+    /// On which side of a single ring the face lies: towards the only pole, else to its left.
+    fn close_high(&self, rings: &[Chain], axis: usize) -> bool {
+        let poles = self.periods.poles[1 - axis];
+        if poles[0] != poles[1] {
+            return poles[1];
+        }
+        let forward = rings[0].turns[axis] > 0.0;
+        forward == (axis == 0)
+    }
+}
+
+/// Repeats a ring over the whole domain and closes it along the border.
+fn close_ring(ring: &Chain, rect: &UvRect, axis: usize, period: f64, domain: &UvRect, border: f64) -> Chain {
+    let turns = ring.turns;
+    let forward = turns[axis] > 0.0;
+    let reach = turns[axis].abs();
+    // Copies k with rect + k * reach over the domain, one to spare on either side.
+    let first = ((domain.min[axis] - rect.max[axis]) / reach).floor() - 1.0;
+    let last = ((domain.max[axis] - rect.min[axis]) / reach).ceil() + 1.0;
+    let count = (last - first).clamp(1.0, 64.0 + 8.0 * (period / reach)) as i32;
+    let mut chain = Chain { loop_index: ring.loop_index, ..Chain::default() };
+    for k in 0..=count {
+        let step = if forward { first + f64::from(k) } else { last - f64::from(k) };
+        // A backward ring's turns point backward: its copies follow each other downwards.
+        let by = turns.abs() * step;
+        let copy = shifted(ring, by);
+        if let (Some((before, _)), Some((next, _))) = (chain.curves.last(), copy.curves.first()) {
+            let line = vec![before.end(), next.start()];
+            if line[0] != line[1] {
+                chain.curves.push((BezierCurve2::polynomial(line), None));
+            }
+        }
+        chain.curves.extend(copy.curves);
+    }
+    if let (Some((head, _)), Some((tail, _))) = (chain.curves.first(), chain.curves.last()) {
+        let (start, end) = (head.start(), tail.end());
+        let at_border = |p: DVec2| if axis == 0 { DVec2::new(p.x, border) } else { DVec2::new(border, p.y) };
+        for line in [[end, at_border(end)], [at_border(end), at_border(start)], [at_border(start), start]] {
+            chain.curves.push((BezierCurve2::polynomial(line.to_vec()), None));
+        }
+    }
+    chain
+}
