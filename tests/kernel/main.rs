@@ -1,6 +1,7 @@
 //! Identities and properties of the geometry kernel.
 
 mod areas;
+mod bounds;
 mod parity;
 mod raycast;
 mod splines;

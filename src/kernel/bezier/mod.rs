@@ -5,6 +5,7 @@ pub mod curve;
 pub mod monotone;
 pub mod normal_cone;
 pub mod patch;
+pub mod products;
 pub mod roots;
 pub mod subdivision;
 

@@ -10,7 +10,7 @@
 use glam::DVec3;
 
 use super::BezierPatch;
-use super::bernstein::binomial_row;
+use super::products::Net;
 
 /// All normals `du x dv` of a patch make at most `half_angle` with `axis`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,13 +19,6 @@ pub struct NormalCone {
     pub axis: DVec3,
     /// Radians, below a half turn.
     pub half_angle: f64,
-}
-
-/// A vector- or number-valued tensor-product polynomial in scaled Bernstein form: coefficient `(i, j)`
-/// times `C(m, i) C(n, j)`.
-struct Scaled<T> {
-    degree: (usize, usize),
-    coefficients: Vec<T>,
 }
 
 impl BezierPatch {
@@ -50,11 +43,7 @@ impl BezierPatch {
     /// The scaled Bernstein coefficients of the numerator of `du x dv`; positive multiples of the
     /// control vectors, so they span the same cone.
     fn normal_net(&self) -> Vec<DVec3> {
-        let origin = self.bounds().centre();
-        let degree = (self.degree_u, self.degree_v);
-        let homogeneous: Vec<(DVec3, f64)> =
-            self.points.iter().zip(&self.weights).map(|(p, w)| ((*p - origin) * *w, *w)).collect();
-        let net = Net { degree, values: homogeneous };
+        let net = Net::of(self);
         let (du, dv) = (net.difference_u(), net.difference_v());
         let (pu, pv) = (du.scaled(|h| h.0), dv.scaled(|h| h.0));
         let cross = pu.product(&pv, |a, b| a.cross(b));
@@ -68,65 +57,6 @@ impl BezierPatch {
         let third = pv.product(&p, |a, b| a.cross(b)).product(&wu, |a, b| a * b);
         let sum = first.coefficients.iter().zip(&second.coefficients).zip(&third.coefficients);
         sum.map(|((a, b), c)| *a + *b + *c).collect()
-    }
-}
-
-/// A homogeneous control net.
-struct Net {
-    degree: (usize, usize),
-    values: Vec<(DVec3, f64)>,
-}
-
-impl Net {
-    fn at(&self, i: usize, j: usize) -> (DVec3, f64) {
-        self.values[i * (self.degree.1 + 1) + j]
-    }
-
-    /// Control net of the derivative in u, but for the factor `degree`, which is common to a product's
-    /// terms.
-    fn difference_u(&self) -> Self {
-        let (m, n) = self.degree;
-        let values = (0..m).flat_map(|i| (0..=n).map(move |j| difference(self.at(i + 1, j), self.at(i, j))));
-        Self { degree: (m - 1, n), values: values.collect() }
-    }
-
-    fn difference_v(&self) -> Self {
-        let (m, n) = self.degree;
-        let values = (0..=m).flat_map(|i| (0..n).map(move |j| difference(self.at(i, j + 1), self.at(i, j))));
-        Self { degree: (m, n - 1), values: values.collect() }
-    }
-
-    fn scaled<T>(&self, part: impl Fn((DVec3, f64)) -> T) -> Scaled<T>
-    where
-        T: std::ops::Mul<f64, Output = T>,
-    {
-        let (m, n) = self.degree;
-        let (bu, bv) = (binomial_row(m), binomial_row(n));
-        let values = self.values.iter().enumerate();
-        let coefficients = values.map(|(k, h)| part(*h) * (bu[k / (n + 1)] * bv[k % (n + 1)])).collect();
-        Scaled { degree: self.degree, coefficients }
-    }
-}
-
-fn difference(a: (DVec3, f64), b: (DVec3, f64)) -> (DVec3, f64) {
-    (a.0 - b.0, a.1 - b.1)
-}
-
-impl<T: Copy> Scaled<T> {
-    /// The product under a bilinear `times`: a plain convolution in scaled form.
-    fn product<S: Copy>(&self, other: &Scaled<S>, times: impl Fn(T, S) -> DVec3) -> Scaled<DVec3> {
-        let ((m1, n1), (m2, n2)) = (self.degree, other.degree);
-        let degree = (m1 + m2, n1 + n2);
-        let stride = degree.1 + 1;
-        let mut coefficients = vec![DVec3::ZERO; (degree.0 + 1) * stride];
-        for (k, a) in self.coefficients.iter().enumerate() {
-            let (i, j) = (k / (n1 + 1), k % (n1 + 1));
-            for (l, b) in other.coefficients.iter().enumerate() {
-                let at = (i + l / (n2 + 1)) * stride + j + l % (n2 + 1);
-                coefficients[at] += times(*a, *b);
-            }
-        }
-        Scaled { degree, coefficients }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::sheet::Sheet;
 use crate::kernel::bezier::BezierCurve2;
 use crate::kernel::face::UvRect;
 use crate::kernel::trim::PieceList;
@@ -33,6 +34,22 @@ impl Boundary {
             Edge { low: curve.start().y, high: curve.end().y, curve }
         });
         Self { edges: edges.collect() }
+    }
+
+    /// The rectangle that the patches of `sheet` tile; nothing when there are none.
+    pub fn rectangle(sheet: &Sheet) -> Self {
+        let (us, vs) = (sheet.u_lines(), sheet.v_lines());
+        let ([u0, .., u1], [v0, .., v1]) = (us, vs) else { return Self::default() };
+        let corner = |u: &f64, v: &f64| DVec2::new(*u, *v);
+        let line =
+            |a: DVec2, b: DVec2| Edge { curve: BezierCurve2::polynomial(vec![a, b]), low: a.y, high: b.y };
+        let edges = vec![
+            line(corner(u0, v0), corner(u1, v0)),
+            line(corner(u1, v0), corner(u1, v1)),
+            line(corner(u0, v1), corner(u1, v1)),
+            line(corner(u0, v0), corner(u0, v1)),
+        ];
+        Self { edges }
     }
 
     /// The edges, in loop order.

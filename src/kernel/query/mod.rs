@@ -2,6 +2,7 @@
 
 pub mod area;
 pub mod boundary;
+pub mod bounds;
 pub mod bounds_tree;
 pub mod line_roots;
 pub mod quadrature;
@@ -11,6 +12,7 @@ pub mod sheet;
 
 pub use area::{Area, face_area, trimmed_area};
 pub use boundary::Boundary;
+pub use bounds::{face_bounds, trimmed_bounds};
 pub use bounds_tree::BoundsTree;
 pub use raycast::{RayHit, RayHits, Raycaster};
 pub use sheet::Sheet;
