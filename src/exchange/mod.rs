@@ -1,4 +1,5 @@
 //! Files from and to other systems, always through [`crate::scene::records`].
 
+pub mod boundary;
 pub mod iges;
 pub mod report;

@@ -1,6 +1,7 @@
 //! Real CAD files against independent ground truth.
 
 mod cli;
+mod iges_truth;
 mod import;
 mod points;
 mod truth;

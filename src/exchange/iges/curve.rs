@@ -60,8 +60,3 @@ pub(crate) fn read(
         Ok(())
     })
 }
-
-/// Whether an entity type is a curve that [`read`] takes.
-pub(crate) fn is_curve(kind: u32) -> bool {
-    matches!(kind, 100 | 102 | 104 | 106 | 110 | 112 | 126 | 130)
-}

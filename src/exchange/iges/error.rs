@@ -131,14 +131,6 @@ pub enum EntityError {
     /// Geometry without extent, or otherwise without meaning.
     #[error("{0}")]
     Degenerate(String),
-    /// A form of the entity that is not read.
-    #[error("form {form} of entity {kind} is not supported")]
-    Form {
-        /// Entity type.
-        kind: u32,
-        /// Form.
-        form: i32,
-    },
     /// A part of the entity is bad.
     #[error("{what} {target}: {source}")]
     Part {

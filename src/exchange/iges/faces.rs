@@ -1,17 +1,25 @@
-//! Which entities become faces, and their names, colours and layers.
+//! Reads the faces that [`super::structure`] found: shape, loops, names, colours, layers.
 
 use std::ops::ControlFlow;
 
-use glam::DAffine3;
+use rayon::prelude::*;
 
 use super::error::{EntityError, ReadError};
 use super::store::{Reader, Store};
-use super::{Progress, surface, transform124, trimmed144};
-use crate::exchange::report::{ImportReport, Severity};
+use super::structure::{self, Root};
+use super::trimmed144::{Trimmed, own_boundary, read143, read144};
+use super::{Progress, appearance, brep, surface};
+use crate::exchange::boundary::finish::finish;
+use crate::exchange::boundary::winding;
+use crate::exchange::report::{ImportReport, Remark, Severity};
+use crate::kernel::query::Carrier;
+use crate::kernel::view::Bounds;
 use crate::scene::records::{FaceRecord, LengthUnit, ModelRecord, SourceRecord};
 
 /// Faces between two calls of the progress function.
-const CHUNK: usize = 128;
+const CHUNK: usize = 256;
+/// Parts of a face's size that its loops may deviate by in conversion.
+const FIT: f64 = 1e-7;
 
 /// Reads all faces in file order.
 pub(crate) fn read(
@@ -19,52 +27,98 @@ pub(crate) fn read(
     report: &mut ImportReport,
     progress: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<ModelRecord, ReadError> {
-    let mut model =
-        ModelRecord { name: store.global.product.clone(), unit: LengthUnit::default(), ..Default::default() };
-    let roots = roots(store);
-    for (done, &index) in roots.iter().enumerate() {
-        if done % CHUNK == 0 && progress(Progress { done, total: roots.len() }).is_break() {
+    let structure = structure::read(store);
+    report.remarks.extend(structure.remarks);
+    let total = structure.roots.len();
+    let mut model = ModelRecord {
+        name: store.global.product.clone(),
+        unit: LengthUnit::default(),
+        parts: structure.parts,
+        faces: Vec::with_capacity(total),
+    };
+    for (k, chunk) in structure.roots.chunks(CHUNK).enumerate() {
+        if progress(Progress { done: k * CHUNK, total }).is_break() {
             return Err(ReadError::Cancelled);
         }
-        let mut reader = Reader::new(store);
-        match face(&mut reader, index) {
-            Ok(face) => model.faces.push(face),
-            Err(error) => reader.remark(index, Severity::Error, format!("skipped: {error}")),
+        let read: Vec<(Option<FaceRecord>, Vec<Remark>)> =
+            chunk.par_iter().map(|root| one(store, root)).collect();
+        for (face, mut remarks) in read {
+            model.faces.extend(face);
+            report.remarks.append(&mut remarks);
         }
-        report.remarks.append(&mut reader.remarks);
     }
-    let _ = progress(Progress { done: roots.len(), total: roots.len() });
-    Ok(model)
+    match progress(Progress { done: total, total }) {
+        ControlFlow::Continue(()) => Ok(model),
+        ControlFlow::Break(()) => Err(ReadError::Cancelled),
+    }
 }
 
-/// Positions of the entities that become faces.
-fn roots(store: &Store<'_>) -> Vec<usize> {
-    let trimmed: Vec<usize> = (0..store.entries.len()).filter(|i| store.entries[*i].kind == 144).collect();
-    if trimmed.is_empty() {
-        return (0..store.entries.len()).filter(|i| surface::is_surface(store.entries[*i].kind)).collect();
-    }
-    trimmed
-}
-
-fn face(reader: &mut Reader<'_, '_>, index: usize) -> Result<FaceRecord, EntityError> {
-    let pointer = Store::number(index) as i64;
-    let (surface, loops) = if reader.store.entries[index].kind == 144 {
-        reader.open(pointer, "face", |reader, mut opened| {
-            trimmed144::read(reader, &mut opened.args, opened.entry.transform, DAffine3::IDENTITY)
-        })?
-    } else {
-        (surface::read(reader, pointer, DAffine3::IDENTITY)?, Vec::new())
+fn one(store: &Store<'_>, root: &Root) -> (Option<FaceRecord>, Vec<Remark>) {
+    let mut reader = Reader::new(store);
+    let face = match face(&mut reader, root) {
+        Ok(face) => Some(face),
+        Err(error) => {
+            reader.remark(root.index, Severity::Error, format!("skipped: {error}"));
+            None
+        }
     };
-    let entry = &reader.store.entries[index];
-    let _ = transform124::transform;
+    (face, reader.remarks)
+}
+
+fn face(reader: &mut Reader<'_, '_>, root: &Root) -> Result<FaceRecord, EntityError> {
+    let entry = &reader.store.entries[root.index];
+    let pointer = Store::number(root.index) as i64;
+    let mut name = None;
+    let (surface, mut loops): Trimmed = reader
+        .open(pointer, "face", |reader, mut opened| {
+            let trimmed = match opened.entry.kind {
+                144 => read144(reader, &mut opened, root.place)?,
+                143 => read143(reader, &mut opened, root.place)?,
+                510 => brep::read510(reader, &mut opened, root.place)?,
+                _ => {
+                    let surface = surface::read_opened(reader, &mut opened, root.place)?;
+                    let loops = own_boundary(reader, &surface).into_iter().collect();
+                    (surface, loops)
+                }
+            };
+            name = appearance::name_property(reader, &mut opened.args);
+            Ok(trimmed)
+        })
+        .map_err(|e| match e {
+            // The remark already names this entity.
+            EntityError::Part { target, source, .. } if target == Store::number(root.index) => *source,
+            other => other,
+        })?;
+    for problem in winding::close(&surface.carrier, &mut loops) {
+        reader.remark(root.index, Severity::Warning, problem);
+    }
+    let tolerance = FIT * size(&surface.carrier, &loops);
+    let (nurbs, loops) = finish(surface.carrier, surface.sweep.as_ref(), loops, tolerance)
+        .map_err(|e| EntityError::Degenerate(e.to_string()))?;
+    let own_colour = appearance::colour(reader, entry.colour);
+    let surface_colour = reader.store.entries[surface.index].colour;
+    let colour = own_colour.or_else(|| appearance::colour(reader, surface_colour));
+    if entry.blanked {
+        reader.remark(root.index, Severity::Note, "blanked in the file; loaded all the same".into());
+    }
     Ok(FaceRecord {
-        name: Some(entry.label.clone()).filter(|l| !l.is_empty()),
-        source: Some(SourceRecord { entity: entry.kind.to_string(), id: Store::number(index) }),
-        colour: None,
+        name: name.or_else(|| Some(entry.label.clone()).filter(|l| !l.is_empty())),
+        source: Some(SourceRecord { entity: entry.kind.to_string(), id: Store::number(root.index) }),
+        colour,
         layer: i32::try_from(entry.level).ok().filter(|l| *l > 0),
-        part: None,
-        surface,
+        part: root.part,
+        surface: nurbs,
         loops,
-        reversed: false,
+        reversed: root.reversed,
     })
+}
+
+fn size(carrier: &Carrier, loops: &[crate::exchange::boundary::RawLoop]) -> f64 {
+    match carrier {
+        Carrier::Spline(spline) => spline.surface().bounds().diagonal(),
+        Carrier::Analytic(surface) => {
+            let ends = loops.iter().flat_map(|l| &l.curves).map(|c| surface.jet(c.point(c.domain().0))[0]);
+            Bounds::of(ends).diagonal()
+        }
+    }
 }

@@ -8,7 +8,11 @@
 //!
 //! Source: "Initial Graphics Exchange Specification IGES 5.3", US PRO 1996.
 
+mod analytic190;
+mod appearance;
 mod arc100;
+mod boundary141;
+mod brep;
 mod composite102;
 mod conic104;
 mod copious106;
@@ -17,15 +21,25 @@ mod curve_on_surface142;
 mod directory;
 mod error;
 mod faces;
+mod generatrix;
 mod global;
 mod line110;
+mod offset140;
 mod parameter;
 mod physical;
+mod plane108;
+mod point116;
+mod revolution120;
+mod ruled118;
+mod segment;
 mod spline112;
+mod spline114;
 mod spline126;
 mod store;
+mod structure;
 mod surface;
 mod surface128;
+mod tabulated122;
 mod transform124;
 mod trimmed144;
 

@@ -183,6 +183,12 @@ impl Args {
         Ok((value != 0.0).then_some(value as i64))
     }
 
+    /// A pointer that must be there.
+    pub(crate) fn required(&mut self, what: &'static str) -> Result<i64, EntityError> {
+        let index = self.next;
+        self.pointer(what)?.ok_or(EntityError::Missing { index, what })
+    }
+
     /// Three numbers, times `scale`.
     pub(crate) fn point(&mut self, what: &'static str, scale: f64) -> Result<DVec3, EntityError> {
         Ok(DVec3::new(self.real(what)?, self.real(what)?, self.real(what)?) * scale)

@@ -28,5 +28,6 @@ fn restrict(curve: NurbsCurve3, range: (f64, f64)) -> NurbsCurve3 {
     if !(b - a > least) || (a - start <= least && end - b <= least) {
         return curve;
     }
-    curve
+    // A range that cannot be cut out is no reason to lose the curve.
+    curve.restricted(a, b).unwrap_or(curve)
 }

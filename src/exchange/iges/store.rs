@@ -4,7 +4,7 @@
 //! bytes of the file plus its directory. [`Store`] is shared; each face is read by its own [`Reader`].
 
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::directory::{self, Entry};
 use super::error::{EntityError, ReadError};
@@ -30,6 +30,8 @@ pub(crate) struct Store<'a> {
     pub entries: Vec<Entry>,
     /// First parameter line of each entry by the back pointers of the lines; only for damaged files.
     by_back_pointer: OnceLock<BTreeMap<i64, usize>>,
+    /// Curves of the edge lists (504) met so far: a list is read once, not once for each edge.
+    edge_lists: Mutex<BTreeMap<usize, Arc<[i64]>>>,
 }
 
 impl<'a> Store<'a> {
@@ -41,7 +43,7 @@ impl<'a> Store<'a> {
         let file = Physical::split(bytes)?;
         let global = Global::read(&file);
         let entries = directory::read(&file);
-        Ok(Self { file, global, entries, by_back_pointer: OnceLock::new() })
+        Ok(Self { file, global, entries, by_back_pointer: OnceLock::new(), edge_lists: Mutex::default() })
     }
 
     /// Whether the terminate section was there, and the number of lines.
@@ -65,27 +67,59 @@ impl<'a> Store<'a> {
         index.filter(|i| *i < self.entries.len()).ok_or(EntityError::Pointer { what, target: pointer as f64 })
     }
 
-    /// The parameters of the entry at `index`.
+    /// The parameters of the entry at `index`: where the directory says, or else where the back
+    /// pointers of the parameter lines say (some writers get one of the two wrong).
     pub(crate) fn args(&self, index: usize) -> Result<Args, EntityError> {
         let entry = &self.entries[index];
-        let lines = &self.file.parameters;
         let number = Self::number(index) as i64;
+        let fits =
+            |list: &[Field]| matches!(list.first(), Some(Field::Number(k)) if *k == f64::from(entry.kind));
+        let lines = &self.file.parameters;
         let claimed = usize::try_from(entry.parameter_start - 1).ok().filter(|s| *s < lines.len());
-        let trusted = claimed.filter(|s| self.back_pointer(*s).is_none_or(|back| back == number));
-        let start = trusted.or_else(|| self.by_back_pointer().get(&number).copied()).ok_or_else(|| {
-            EntityError::Data {
-                reason: format!("no parameter line {} for this entry", entry.parameter_start),
+        let mut found = None;
+        if let Some(start) = claimed {
+            let list = self.list(start, entry);
+            if fits(&list) && !self.belongs_elsewhere(start, number) {
+                return Ok(Args::new(list));
             }
-        })?;
-        let claimed_end = start.saturating_add(usize::try_from(entry.parameter_count).unwrap_or(0).max(1));
+            found = Some((start, list));
+        }
+        if let Some(start) = self.by_back_pointer().get(&number).copied().filter(|s| Some(*s) != claimed) {
+            let list = self.list(start, entry);
+            if fits(&list) {
+                return Ok(Args::new(list));
+            }
+        }
+        let reason = match found {
+            Some((_, list)) if fits(&list) => return Ok(Args::new(list)),
+            Some((start, list)) => format!(
+                "parameter data at line {} begin with {:?} instead of {}",
+                lines[start].number,
+                list.first(),
+                entry.kind
+            ),
+            None => format!("no parameter line {} for this entry", entry.parameter_start),
+        };
+        Err(EntityError::Data { reason })
+    }
+
+    /// Whether the line's back pointer names another entry of the file, whose own pointer agrees.
+    fn belongs_elsewhere(&self, line: usize, number: i64) -> bool {
+        let Some(back) = self.back_pointer(line).filter(|b| *b != number) else { return false };
+        self.index(back, "back pointer").is_ok_and(|i| self.entries[i].parameter_start - 1 == line as i64)
+    }
+
+    /// The fields of the list that starts at parameter line `start`.
+    fn list(&self, start: usize, entry: &Entry) -> Vec<Field> {
+        let lines = &self.file.parameters;
+        let count = usize::try_from(entry.parameter_count).unwrap_or(0).max(1);
+        let claimed_end = start.saturating_add(count);
+        let own = self.back_pointer(start);
         let mut text = Vec::new();
         let mut position = start;
-        // The record delimiter ends the list; the line count of the directory only counts where it is missing.
+        // The record delimiter ends the list; the line count of the directory is a hint.
         while position < lines.len() && text.len() < MOST_TEXT {
-            let back = self.back_pointer(position);
-            if position > start
-                && (back.is_some_and(|b| b != number) || (back.is_none() && position >= claimed_end))
-            {
+            if position >= claimed_end && (own.is_none() || self.back_pointer(position) != own) {
                 break;
             }
             let part = self.file.text(lines[position], 64);
@@ -96,17 +130,22 @@ impl<'a> Store<'a> {
                 break;
             }
         }
-        let (list, _) = fields(&text, self.global.delimiters);
-        match list.first() {
-            Some(Field::Number(kind)) if *kind == f64::from(entry.kind) => Ok(Args::new(list)),
-            other => {
-                let reason = format!(
-                    "parameter data at line {} begin with {other:?} instead of {}",
-                    lines[start].number, entry.kind
-                );
-                Err(EntityError::Data { reason })
-            }
+        fields(&text, self.global.delimiters).0
+    }
+
+    /// The curves of the edge list at `index`, read by `read` the first time.
+    pub(crate) fn edge_list(
+        &self,
+        index: usize,
+        read: impl FnOnce() -> Result<Vec<i64>, EntityError>,
+    ) -> Result<Arc<[i64]>, EntityError> {
+        let mut lists = self.edge_lists.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(list) = lists.get(&index) {
+            return Ok(list.clone());
         }
+        let list: Arc<[i64]> = read()?.into();
+        lists.insert(index, list.clone());
+        Ok(list)
     }
 
     /// The directory entry that a parameter line says it belongs to (columns 66 to 72).
@@ -154,6 +193,11 @@ impl<'s, 'a> Reader<'s, 'a> {
     /// A reader with nothing open.
     pub(crate) fn new(store: &'s Store<'a>) -> Self {
         Self { store, stack: Vec::new(), budget: BUDGET, remarks: Vec::new() }
+    }
+
+    /// Forgets how much was followed so far, before another independent entity.
+    pub(crate) fn refresh(&mut self) {
+        self.budget = BUDGET;
     }
 
     /// Millimetres in one unit of the file.

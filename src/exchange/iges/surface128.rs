@@ -1,5 +1,7 @@
 //! Rational B-spline surface (128), taken as it is.
 
+use glam::DVec2;
+
 use super::error::EntityError;
 use super::parameter::Args;
 use crate::kernel::nurbs::{KnotVector, NurbsSurface};
@@ -29,5 +31,20 @@ pub(crate) fn read(args: &mut Args, scale: f64) -> Result<NurbsSurface, EntityEr
         order.clone().map(|k| points[k]).collect(),
         order.map(|k| weights[k]).collect(),
     )?;
-    Ok(surface)
+    let ((u0, u1), (v0, v1)) = (surface.knots_u().domain(), surface.knots_v().domain());
+    let mut range =
+        |what, start, end| Ok::<_, EntityError>((args.real_or(what, start)?, args.real_or(what, end)?));
+    let (u, v) = (range("range of u", u0, u1)?, range("range of v", v0, v1)?);
+    let part = |(a, b): (f64, f64), start: f64, end: f64| {
+        let least = 1e-9 * (end - start);
+        let (a, b) = (a.max(start), b.min(end));
+        (b - a > least && (a - start > least || end - b > least)).then_some((a, b))
+    };
+    let (u, v) = (part(u, u0, u1), part(v, v0, v1));
+    if u.is_none() && v.is_none() {
+        return Ok(surface);
+    }
+    let (u, v) = (u.unwrap_or((u0, u1)), v.unwrap_or((v0, v1)));
+    // A range that cannot be cut out is no reason to lose the surface.
+    Ok(surface.restricted(DVec2::new(u.0, v.0), DVec2::new(u.1, v.1)).unwrap_or(surface))
 }

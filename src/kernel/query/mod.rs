@@ -1,10 +1,15 @@
-//! Questions asked of exact geometry: where a ray hits, how large a face is, what is closest.
+//! Questions asked of exact geometry: where a ray hits, how large a face is, what is closest, how a
+//! curve lies on a surface.
 
 pub mod area;
 pub mod boundary;
 pub mod bounds;
 pub mod bounds_tree;
+pub mod carrier;
+pub mod fit;
 pub mod line_roots;
+pub mod offset;
+pub mod project;
 pub mod quadrature;
 pub mod raycast;
 mod row;
@@ -14,5 +19,7 @@ pub use area::{Area, face_area, trimmed_area};
 pub use boundary::Boundary;
 pub use bounds::{face_bounds, trimmed_bounds};
 pub use bounds_tree::BoundsTree;
+pub use carrier::{Carrier, SplineCarrier};
+pub use project::{Projection, project};
 pub use raycast::{RayHit, RayHits, Raycaster};
 pub use sheet::Sheet;

@@ -1,0 +1,191 @@
+//! Chaining the pcurves of one loop head to tail, with the right branch on periodic surfaces and the
+//! right way round at poles.
+//!
+//! At a pole all u are one point, so the file need not say how u goes on. The material lies to the
+//! left of a loop, so u falls along the upper pole and rises along the lower one; of all ways that
+//! close the loop, the one that keeps this rule most often is taken, then the one of largest area.
+
+use glam::DVec2;
+
+use super::{end, shifted, start};
+use crate::kernel::nurbs::NurbsCurve2;
+use crate::kernel::query::Carrier;
+
+/// Pole passages of one loop for which all ways are tried.
+const MOST_POLES: usize = 5;
+
+/// Puts `pieces` end to start: reverses and shifts pieces by periods where that closes gaps. Gaps
+/// that stay are bridged by straight lines, except the last one (see [`super::winding`]).
+pub fn chain(carrier: &Carrier, pieces: Vec<NurbsCurve2>) -> Vec<NurbsCurve2> {
+    let gap = |a: DVec2, b: DVec2| (carrier.point(a) - carrier.point(b)).length();
+    let mut result: Vec<NurbsCurve2> = Vec::with_capacity(pieces.len());
+    let count = pieces.len();
+    for (index, piece) in pieces.iter().enumerate() {
+        let oriented = match result.last() {
+            Some(last) => {
+                let at = end(last);
+                let (ahead, back) = (gap(at, start(piece)), gap(at, end(piece)));
+                if back < 0.1 * ahead { piece.reversed() } else { piece.clone() }
+            }
+            // The first piece is turned when that lets the second one follow.
+            None if count > 1 => {
+                let next = &pieces[index + 1];
+                let reach = |p: DVec2| gap(p, start(next)).min(gap(p, end(next)));
+                let (ahead, back) = (reach(end(piece)), reach(start(piece)));
+                // A loop of two pieces meets at both ends: leave it as it is.
+                if back < 0.1 * ahead && count > 2 { piece.reversed() } else { piece.clone() }
+            }
+            None => piece.clone(),
+        };
+        let moved = match result.last() {
+            Some(last) => shifted(&oriented, -nearest_period(carrier, start(&oriented) - end(last))),
+            None => oriented,
+        };
+        result.push(moved);
+    }
+    turn_at_poles(carrier, &mut result);
+    bridge(carrier, result)
+}
+
+/// The multiple of the periods nearest to `difference`.
+pub fn nearest_period(carrier: &Carrier, difference: DVec2) -> DVec2 {
+    let periods = carrier.periods();
+    let one = |k: usize| periods[k].map_or(0.0, |t| (difference[k] / t).round() * t);
+    DVec2::new(one(0), one(1))
+}
+
+/// Straight lines across the inner gaps.
+fn bridge(carrier: &Carrier, pieces: Vec<NurbsCurve2>) -> Vec<NurbsCurve2> {
+    let closing = nearest_period(carrier, pieces.last().map_or(DVec2::ZERO, |l| end(l) - start(&pieces[0])));
+    let mut result: Vec<NurbsCurve2> = Vec::with_capacity(pieces.len());
+    for piece in pieces {
+        if let Some(last) = result.last() {
+            let (a, b) = (end(last), start(&piece));
+            if is_gap(a, b) {
+                result.push(NurbsCurve2::line(a, b));
+            }
+        }
+        result.push(piece);
+    }
+    if let (Some(first), Some(last)) = (result.first(), result.last()) {
+        let (a, b) = (end(last), start(first));
+        if closing == DVec2::ZERO && is_gap(a, b) {
+            result.push(NurbsCurve2::line(a, b));
+        }
+    }
+    result
+}
+
+/// Whether two ends are further apart than rounding explains.
+fn is_gap(a: DVec2, b: DVec2) -> bool {
+    let size = a.abs().max(b.abs()) + DVec2::ONE * f64::MIN_POSITIVE;
+    ((b - a).abs() / size).max_element() > 1e-12 && (b - a).abs().max_element() > 1e-15
+}
+
+/// Decides how u (or v) goes on at poles: `pieces[i]` and all after it move by periods.
+fn turn_at_poles(carrier: &Carrier, pieces: &mut [NurbsCurve2]) {
+    let periods = carrier.periods();
+    for axis in 0..2 {
+        let Some(period) = periods[axis] else { continue };
+        let count = pieces.len();
+        let joints: Vec<usize> = (0..count)
+            .filter(|i| {
+                let (a, b) = (end(&pieces[(i + count - 1) % count]), start(&pieces[*i]));
+                // Only where the other coordinate agrees: the pole is one line of the domain.
+                carrier.is_singular(a)[axis] && carrier.is_singular(b)[axis]
+            })
+            .collect();
+        if joints.is_empty() || joints.len() > MOST_POLES {
+            continue;
+        }
+        if let Some(shifts) = best_turns(carrier, pieces, axis, period, &joints) {
+            for (piece, shift) in pieces.iter_mut().zip(shifts) {
+                let by = if axis == 0 { DVec2::new(shift, 0.0) } else { DVec2::new(0.0, shift) };
+                *piece = shifted(piece, by);
+            }
+        }
+    }
+}
+
+/// Shifts of every piece that close the loop best.
+fn best_turns(
+    carrier: &Carrier,
+    pieces: &[NurbsCurve2],
+    axis: usize,
+    period: f64,
+    joints: &[usize],
+) -> Option<Vec<f64>> {
+    let other = 1 - axis;
+    let count = pieces.len();
+    let (low, high) = pieces
+        .iter()
+        .flat_map(|p| [start(p)[other], end(p)[other]])
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+    let mut best: Option<((usize, f64), Vec<f64>)> = None;
+    // Of a joint before the first piece only the jump matters, which closing takes care of.
+    let choices = 3usize.pow(joints.len() as u32);
+    for code in 0..choices {
+        let mut shifts = vec![0.0; count];
+        let mut kept = 0;
+        let mut jumps = Vec::new();
+        let mut rest = code;
+        for joint in joints {
+            let turn = (rest % 3) as f64 - 1.0;
+            rest /= 3;
+            if *joint > 0 {
+                shifts[*joint..].iter_mut().for_each(|s| *s += turn * period);
+            } else if turn != 0.0 {
+                kept = usize::MAX;
+            }
+            jumps.push(*joint);
+        }
+        if kept == usize::MAX {
+            continue;
+        }
+        let first = start(&pieces[0])[axis];
+        let mut closed = true;
+        let mut area = 0.0;
+        let mut rule = 0;
+        let mut previous: Option<DVec2> = None;
+        for k in 0..=count {
+            let (piece, shift) = (&pieces[k % count], shifts[k % count]);
+            let at = |p: DVec2| {
+                if axis == 0 { DVec2::new(p.x + shift, p.y) } else { DVec2::new(p.y + shift, p.x) }
+            };
+            if let Some(last) = previous {
+                let next = at(start(piece));
+                area += last.perp_dot(next);
+                let jump = next.x - last.x;
+                if joints.contains(&(k % count)) {
+                    // A jump of more than one turn is nonsense.
+                    closed &= jump.abs() <= period * (1.0 + 1e-9);
+                    let upper = next.y > 0.5 * (low + high);
+                    let falls = if axis == 0 { upper } else { !upper };
+                    rule += usize::from(if falls { jump <= 1e-9 * period } else { jump >= -1e-9 * period });
+                } else {
+                    closed &= jump.abs() < 0.25 * period;
+                }
+            }
+            if k < count {
+                const PARTS: usize = 16;
+                let (a, b) = piece.domain();
+                let mut p = at(start(piece));
+                for s in 1..=PARTS {
+                    let q = at(piece.point(a + (b - a) * s as f64 / PARTS as f64));
+                    area += p.perp_dot(q);
+                    p = q;
+                }
+                previous = Some(p);
+            }
+        }
+        let _ = (first, carrier);
+        if !closed || area.abs() < 1e-9 * period * (high - low) {
+            continue;
+        }
+        let key = (rule, area.abs());
+        if best.as_ref().is_none_or(|(k, _)| key.0 > k.0 || (key.0 == k.0 && key.1 > k.1 * (1.0 + 1e-9))) {
+            best = Some((key, shifts));
+        }
+    }
+    best.map(|b| b.1)
+}

@@ -1,0 +1,82 @@
+//! From boundary curves as files give them to trim loops: head to tail, closed across seams and poles,
+//! in the parameters of the final NURBS surface.
+//!
+//! [`assembly`] chains the pcurves of one loop; [`winding`] closes loops that run round a periodic
+//! surface; [`finish`] fixes the extent of analytic surfaces and converts loops to the spline's
+//! parameters.
+
+pub mod assembly;
+pub mod finish;
+pub mod parameter_map;
+pub mod winding;
+
+use glam::DVec2;
+
+use crate::kernel::nurbs::NurbsCurve2;
+use crate::scene::records::LoopRole;
+
+/// A loop in the natural parameters of its carrier.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RawLoop {
+    /// What the file says it is.
+    pub role: LoopRole,
+    /// Pcurves in order.
+    pub curves: Vec<NurbsCurve2>,
+}
+
+/// First point of a curve.
+pub fn start(curve: &NurbsCurve2) -> DVec2 {
+    curve.point(curve.domain().0)
+}
+
+/// Last point of a curve.
+pub fn end(curve: &NurbsCurve2) -> DVec2 {
+    curve.point(curve.domain().1)
+}
+
+/// The curve moved by `by`.
+pub fn shifted(curve: &NurbsCurve2, by: DVec2) -> NurbsCurve2 {
+    if by == DVec2::ZERO { curve.clone() } else { curve.map_points(|p| p + by) }
+}
+
+/// Tight box (min, max) of `curves`: control points for straight pieces, extrema otherwise.
+pub fn bounds<'a>(curves: impl IntoIterator<Item = &'a NurbsCurve2>) -> Option<(DVec2, DVec2)> {
+    let mut result: Option<(DVec2, DVec2)> = None;
+    let mut grow = |p: DVec2| {
+        result = Some(result.map_or((p, p), |(a, b)| (a.min(p), b.max(p))));
+    };
+    for curve in curves {
+        grow(start(curve));
+        grow(end(curve));
+        if curve.degree() == 1 {
+            curve.points().iter().for_each(|p| grow(*p));
+            continue;
+        }
+        for span in curve.knots().breaks().windows(2) {
+            const PARTS: usize = 12;
+            let h = (span[1] - span[0]) / PARTS as f64;
+            for k in 0..PARTS {
+                let a = span[0] + h * k as f64;
+                grow(curve.point(a));
+                for axis in 0..2 {
+                    extremum(curve, axis, a, a + h).map(&mut grow);
+                }
+            }
+        }
+    }
+    result
+}
+
+/// The point of `[a, b]` where the derivative of coordinate `axis` changes sign, if it does.
+fn extremum(curve: &NurbsCurve2, axis: usize, mut a: f64, mut b: f64) -> Option<DVec2> {
+    let slope = |t: f64| curve.derivatives(t, 1)[1][axis];
+    let (sa, sb) = (slope(a), slope(b));
+    if !(sa * sb < 0.0) {
+        return None;
+    }
+    for _ in 0..50 {
+        let m = 0.5 * (a + b);
+        if slope(m) * sa > 0.0 { a = m } else { b = m }
+    }
+    Some(curve.point(0.5 * (a + b)))
+}
