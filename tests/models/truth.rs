@@ -29,6 +29,11 @@ pub struct Face {
     pub id: usize,
     #[serde(default)]
     pub nurbform: u32,
+    /// Trimmed area, model units squared; openNURBS gives none.
+    pub area: Option<f64>,
+    /// xmin ymin zmin xmax ymax zmax.
+    #[serde(default)]
+    pub bbox: Vec<f64>,
     surf: Option<Surface>,
     loops: Vec<Loop>,
 }

@@ -19,7 +19,7 @@ use crate::kernel::view::Bounds;
 /// Accuracy relative to the diagonal of the box.
 pub const SLACK: f64 = 1e-8;
 /// Patch parts looked at for one face; reached only where a coordinate is largest along an oblique curve.
-const BUDGET: usize = 20_000;
+const BUDGET: usize = 4_000;
 /// Samples on each boundary curve.
 const SAMPLES: usize = 13;
 
