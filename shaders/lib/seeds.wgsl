@@ -16,6 +16,10 @@ struct Conics {
     c02: vec2f,
 }
 
+const POLISH_STEPS: u32 = 5u;
+// How far outside its cell a seed is still followed.
+const REACH: f32 = 1.3;
+
 // At most two roots in cell parameters.
 struct Seeds {
     count: u32,
@@ -47,14 +51,8 @@ fn solve_2x2(ds: vec2f, dt: vec2f, rhs: vec2f) -> vec2f {
     return vec2f(rhs.x * dt.y - rhs.y * dt.x, ds.x * rhs.y - ds.y * rhs.x) / safe;
 }
 
-// One Newton step on the conics, kept near the cell.
-fn conics_step(c: Conics, x: vec2f) -> vec2f {
-    let step = solve_2x2(conics_ds(c, x), conics_dt(c, x), -conics_value(c, x));
-    return clamp(x + clamp(step, vec2f(-1.0), vec2f(1.0)), vec2f(-3.0), vec2f(3.0));
-}
-
 // Roots along the weak direction through `x`, exact up to third order. `slack` is how far the conics
-// may be from the surface: they have no root only if nothing within it has one.
+// may be from the surface: tangent or missing roots are drawn apart by as much.
 fn conics_split(c: Conics, x: vec2f, slack: f32) -> Seeds {
     let f = conics_value(c, x);
     let ds = conics_ds(c, x);
@@ -91,9 +89,6 @@ fn conics_split(c: Conics, x: vec2f, slack: f32) -> Seeds {
     let g2 = dot(l, q_ww) + beta1 * g_ws + (beta1 * beta1 + 2.0 * beta_start * beta2) * g_ss;
     let lift = 4.0 * abs(g2) * slack;
     let discriminant = g1 * g1 - 4.0 * g2 * g0;
-    if (discriminant < -2.0 * lift) {
-        return Seeds(0u, vec2f(0.0), vec2f(0.0));
-    }
     let root = sqrt(max(discriminant, 0.5 * lift));
     let q = -0.5 * (g1 + select(-root, root, g1 >= 0.0));
     let w1 = clamp(g0 / select(q, 1e-37, abs(q) < 1e-37), -8.0, 8.0);
@@ -104,18 +99,57 @@ fn conics_split(c: Conics, x: vec2f, slack: f32) -> Seeds {
     return Seeds(select(1u, 2u, has_second), x1, x2);
 }
 
-// The roots of the conics near the cell, polished.
+// A possible root and how close the conics come to zero there.
+struct Candidate {
+    x: vec2f,
+    value: f32,
+}
+
+// A few Newton steps, each kept only if it brings the conics closer to zero and halved if not.
+fn conics_polish(c: Conics, start: vec2f) -> Candidate {
+    var x = clamp(start, vec2f(-3.0), vec2f(3.0));
+    var value = length(conics_value(c, x));
+    var damping = 1.0;
+    for (var k = 0u; k < POLISH_STEPS; k++) {
+        let step = solve_2x2(conics_ds(c, x), conics_dt(c, x), -conics_value(c, x));
+        let next = clamp(x + damping * clamp(step, vec2f(-1.0), vec2f(1.0)), vec2f(-3.0), vec2f(3.0));
+        let next_value = length(conics_value(c, next));
+        let better = next_value < value;
+        x = select(x, next, better);
+        value = select(value, next_value, better);
+        damping = select(0.5 * damping, 1.0, better);
+    }
+    return Candidate(x, value);
+}
+
+fn on_reach(candidate: Candidate, near: f32) -> bool {
+    return candidate.value <= near && max(abs(candidate.x.x), abs(candidate.x.y)) < REACH;
+}
+
+// Adds a candidate unless it is none or already there.
+fn seeds_add(seeds: Seeds, candidate: Candidate, near: f32) -> Seeds {
+    let fresh = abs(candidate.x - seeds.first);
+    let usable = on_reach(candidate, near) && (seeds.count == 0u || fresh.x + fresh.y > 1e-4);
+    let to_first = usable && seeds.count == 0u;
+    let to_second = usable && seeds.count == 1u;
+    return Seeds(
+        seeds.count + u32(to_first || to_second),
+        select(seeds.first, candidate.x, to_first),
+        select(seeds.second, candidate.x, to_second),
+    );
+}
+
+// The roots of the conics on or just beside the cell, polished. `slack` is how far the surface may be
+// from its model: points whose conics are that close to zero count as roots.
 fn seeds(c: Conics, slack: f32) -> Seeds {
     let rough = conics_split(c, vec2f(0.0), 4.0 * slack);
-    let middle = select(rough.first, 0.5 * (rough.first + rough.second), rough.count == 2u);
+    let both = rough.count == 2u && max(abs(rough.second.x), abs(rough.second.y)) < 2.5;
+    let middle = select(rough.first, 0.5 * (rough.first + rough.second), both);
     let fine = conics_split(c, clamp(middle, vec2f(-1.5), vec2f(1.5)), slack);
-    if (rough.count == 0u || fine.count == 0u) {
-        return Seeds(0u, vec2f(0.0), vec2f(0.0));
-    }
-    var x1 = clamp(fine.first, vec2f(-3.0), vec2f(3.0));
-    var x2 = clamp(fine.second, vec2f(-3.0), vec2f(3.0));
-    x1 = conics_step(c, conics_step(c, x1));
-    x2 = conics_step(c, conics_step(c, x2));
-    let distinct = fine.count == 2u && (abs(x1.x - x2.x) + abs(x1.y - x2.y)) > 1e-4;
-    return Seeds(select(1u, 2u, distinct), x1, x2);
+    let near = 4.0 * slack + 1e-5 * (length(c.c10) + length(c.c01));
+    var found = Seeds(0u, vec2f(0.0), vec2f(0.0));
+    found = seeds_add(found, conics_polish(c, fine.first), near);
+    found = seeds_add(found, conics_polish(c, fine.second), near);
+    found = seeds_add(found, conics_polish(c, rough.first), near);
+    return seeds_add(found, conics_polish(c, vec2f(0.0)), near);
 }

@@ -37,8 +37,6 @@ struct Root {
 }
 
 const MAX_STEPS: u32 = 8u;
-// How far outside its cell a seed is still followed.
-const REACH: f32 = 1.3;
 // Rounding of cell parameters: cells overlap by this much so that no ray passes between them.
 const HAIR: f32 = 4e-6;
 // The largest number below 1: trim tests are half open.
@@ -75,12 +73,9 @@ fn model_z(piece: Piece, x: vec2f) -> f32 {
 // Where to start: the model's roots on or just beside the cell, nearest first.
 fn piece_seeds(piece: Piece, conics: Conics) -> Seeds {
     let start = seeds(conics, piece.residual);
-    let first = start.count >= 1u && max(abs(start.first.x), abs(start.first.y)) < REACH;
-    let second = start.count == 2u && max(abs(start.second.x), abs(start.second.y)) < REACH;
-    let nearer = model_z(piece, start.second) < model_z(piece, start.first);
-    let swap = !first || (second && nearer);
+    let swap = start.count == 2u && model_z(piece, start.second) < model_z(piece, start.first);
     return Seeds(
-        u32(first) + u32(second),
+        start.count,
         select(start.first, start.second, swap),
         select(start.second, start.first, swap),
     );

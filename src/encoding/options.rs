@@ -1,5 +1,6 @@
 //! What a picture shall show: shared by the GPU renderer, the CPU renderer, the command line and the editor.
 
+use super::view::{CAST_HEAT, CAST_TRIM};
 use crate::kernel::view::Camera;
 
 /// What the colours of a picture mean.
@@ -85,6 +86,15 @@ pub fn jitter(index: u32) -> [f32; 2] {
     }
     let along = |step: f64| ((0.5 + step * f64::from(index)).fract() - 0.5) as f32;
     [along(0.754_877_666_246_692_8), along(0.569_840_290_998_053_3)]
+}
+
+/// Flags of [`super::View`] that a mode casts with.
+pub fn cast_flags(mode: DisplayMode) -> u32 {
+    match mode {
+        DisplayMode::Untrimmed => 0,
+        DisplayMode::Heat => CAST_TRIM | CAST_HEAT,
+        DisplayMode::Shaded | DisplayMode::Faces | DisplayMode::Uv => CAST_TRIM,
+    }
 }
 
 /// A picture of 8-bit sRGB with straight alpha, rows from the top.

@@ -155,6 +155,16 @@ impl PackedScene {
         })
     }
 
+    /// All cells, free ones included.
+    pub fn cell_data(&self) -> &[Cell] {
+        self.cells.data()
+    }
+
+    /// All homogeneous control points, free ones included.
+    pub fn point_data(&self) -> &[[f32; 4]] {
+        self.points.data()
+    }
+
     /// Number of cells and control points in use.
     pub fn counts(&self) -> (usize, usize) {
         (self.cells.live(), self.points.live())

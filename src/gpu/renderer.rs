@@ -6,7 +6,8 @@ use super::GpuError;
 use super::buffers::{SceneBuffers, Uploaded};
 use super::pipelines::Pipelines;
 use super::targets::Targets;
-use crate::encoding::view::{CAST_HEAT, CAST_TRIM, DepthRange};
+use crate::encoding::options::cast_flags;
+use crate::encoding::view::DepthRange;
 use crate::encoding::{DisplayMode, EdgeStyle, Look, PackedScene, Theme, View};
 use crate::kernel::view::Camera;
 
@@ -123,11 +124,7 @@ impl Renderer {
             self.resolve_group = None;
             self.present_group = None;
         }
-        let flags = match sample.mode {
-            DisplayMode::Untrimmed => 0,
-            DisplayMode::Heat => CAST_TRIM | CAST_HEAT,
-            _ => CAST_TRIM,
-        };
+        let flags = cast_flags(sample.mode);
         self.view = View::new(&sample.camera, self.targets.size, sample.jitter, sample.depth, flags);
         let view = self.view;
         let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));

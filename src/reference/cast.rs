@@ -1,0 +1,112 @@
+//! One ray against one cell. Twin of `shaders/pass/cast.wgsl`.
+
+use glam::{Vec2, Vec3};
+
+use super::pack::{pack_heat, pack_normal};
+use super::ray::Ray;
+use super::solve::{Axes, BELOW_ONE, HAIR, Piece, axes_apply, newton, piece_conics, piece_seeds};
+use crate::encoding::cell::Cell;
+use crate::encoding::view::{CAST_HEAT, CAST_TRIM, View};
+use crate::encoding::{FaceHeader, PackedScene};
+use crate::kernel::trim::grid::{GridView, classify};
+use crate::kernel::trim::tally::Counters;
+
+/// What a pixel shows: the words of the visibility buffer and the depth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fragment {
+    /// Face slot + 1 (0: nothing), u and v (bits of `f32`), normal or counts.
+    pub words: [u32; 4],
+    /// Reverse z.
+    pub depth: f32,
+}
+
+impl Fragment {
+    /// Background.
+    pub const NONE: Self = Self { words: [0; 4], depth: 0.0 };
+}
+
+fn xyz(v: [f32; 4]) -> Vec3 {
+    Vec3::new(v[0], v[1], v[2])
+}
+
+/// The view's axes.
+pub fn view_axes(view: &View) -> Axes {
+    Axes { right: xyz(view.right), up: xyz(view.up), forward: xyz(view.forward) }
+}
+
+/// The ray of a sample position in pixels.
+pub fn view_ray(view: &View, pixel: Vec2) -> Ray {
+    let ndc = (2.0 * pixel / Vec2::from(view.size) - 1.0) * Vec2::new(1.0, -1.0);
+    Ray { slope: ndc * Vec2::from(view.slope_scale), offset: ndc * Vec2::from(view.offset_scale) }
+}
+
+/// The cell as seen by `view`: what the vertex stage computes once per cell.
+pub fn piece_of(view: &View, cell: &Cell) -> Piece {
+    let axes = view_axes(view);
+    let high = Vec3::from(cell.origin_high) - xyz(view.reference_high);
+    let low = Vec3::from(cell.origin_low) - xyz(view.reference_low);
+    let shift = axes_apply(&axes, high + low);
+    let turn = |m: [f32; 3]| axes_apply(&axes, Vec3::from(m));
+    Piece {
+        first_point: cell.first_point,
+        degrees: cell.degrees,
+        residual: cell.residual,
+        size: cell.size,
+        shift,
+        m00: turn(cell.m00) + shift,
+        m10: turn(cell.m10),
+        m01: turn(cell.m01),
+        m20: turn(cell.m20),
+        m11: turn(cell.m11),
+        m02: turn(cell.m02),
+    }
+}
+
+/// Casts the ray through `pixel` (position in pixels, jitter included) at one cell.
+pub fn cast(scene: &PackedScene, view: &View, cell: &Cell, piece: &Piece, pixel: Vec2) -> Fragment {
+    let face = &scene.faces.data()[cell.face as usize];
+    let ray = view_ray(view, pixel);
+    let conics = piece_conics(ray, piece);
+    let start = piece_seeds(piece, &conics);
+    let axes = view_axes(view);
+    let (mut evaluations, mut counters) = (0, Counters::default());
+    let (trim, heat) = (view.flags & CAST_TRIM != 0, view.flags & CAST_HEAT != 0);
+    let mut x = start.first;
+    for _ in 0..start.count {
+        let root = newton(scene.points.data(), ray, &axes, piece, &conics, Vec2::from(view.pixel), x);
+        evaluations += root.evaluations;
+        x = start.second;
+        let depth = (view.depth[0] + view.depth[1] * root.z) / (view.depth[2] + view.depth[3] * root.z);
+        let on_cell = root.x.x.abs().max(root.x.y.abs()) <= 1.0 + HAIR + root.slack;
+        if !(root.converged && on_cell && depth > 0.0 && depth <= 1.0) {
+            continue;
+        }
+        let (low, high) = (Vec2::from(cell.uv_min), Vec2::from(cell.uv_max));
+        let part = 0.5 + 0.5 * root.x;
+        let uv = (low * (1.0 - part) + high * part).clamp(Vec2::ZERO, Vec2::splat(BELOW_ONE));
+        let kept = if trim && face.flags & FaceHeader::TRIMMED != 0 {
+            classify(&grid_view(scene, face), uv.x, uv.y, &mut counters)
+        } else {
+            true
+        };
+        if kept || heat {
+            let word = if heat {
+                pack_heat(root.normal, counters.evaluations as u32, kept, evaluations)
+            } else {
+                pack_normal(root.normal)
+            };
+            return Fragment { words: [cell.face + 1, uv.x.to_bits(), uv.y.to_bits(), word], depth };
+        }
+    }
+    Fragment::NONE
+}
+
+/// The trim grid of a face in the scene's arrays.
+pub fn grid_view<'a>(scene: &'a PackedScene, face: &FaceHeader) -> GridView<'a> {
+    GridView {
+        header: face.grid,
+        cells: scene.trim_cells.data(),
+        entries: scene.trim_entries.data(),
+        data: scene.trim_data.data(),
+    }
+}

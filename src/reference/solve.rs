@@ -1,0 +1,153 @@
+//! Newton's method on the exact rational patch. Twin of `shaders/lib/solve.wgsl`, which tells how.
+
+use glam::{Vec2, Vec3, Vec4Swizzles};
+
+use super::patch_jet::patch_jet;
+use super::ray::Ray;
+use super::seeds::{Conics, Seeds, conics_bilinear, seeds, solve_2x2};
+
+/// Model axes seen from the viewer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "named by direction")]
+pub struct Axes {
+    pub right: Vec3,
+    pub up: Vec3,
+    pub forward: Vec3,
+}
+
+/// A cell as the solver sees it: its quadratic model in view axes, relative to the reference point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(missing_docs, reason = "described in the shader")]
+pub struct Piece {
+    pub first_point: u32,
+    pub degrees: u32,
+    pub residual: f32,
+    pub size: f32,
+    pub shift: Vec3,
+    pub m00: Vec3,
+    pub m10: Vec3,
+    pub m01: Vec3,
+    pub m20: Vec3,
+    pub m11: Vec3,
+    pub m02: Vec3,
+}
+
+/// What Newton's method found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Root {
+    /// Whether the error left is known to be small.
+    pub converged: bool,
+    /// Surface evaluations made.
+    pub evaluations: u32,
+    /// Cell parameters.
+    pub x: Vec2,
+    /// View depth.
+    pub z: f32,
+    /// By how much `x` may be wrong.
+    pub slack: f32,
+    /// `du x dv` in view axes, unit.
+    pub normal: Vec3,
+}
+
+const MAX_STEPS: u32 = 8;
+/// Rounding of cell parameters: cells overlap by this much so that no ray passes between them.
+pub const HAIR: f32 = 4e-6;
+/// The largest number below 1: trim tests are half open.
+pub const BELOW_ONE: f32 = 0.999_999_94;
+const PIXEL_TOLERANCE: f32 = 0.02;
+const ROUNDING: f32 = 4e-7;
+
+/// Coordinates of `p` along the axes.
+pub fn axes_apply(axes: &Axes, p: Vec3) -> Vec3 {
+    Vec3::new(axes.right.dot(p), axes.up.dot(p), axes.forward.dot(p))
+}
+
+fn project(ray: Ray, m: Vec3) -> Vec2 {
+    m.truncate() - ray.slope * m.z
+}
+
+/// The model's two conics as the ray sees them.
+pub fn piece_conics(ray: Ray, piece: &Piece) -> Conics {
+    Conics {
+        c00: project(ray, piece.m00) - ray.offset,
+        c10: project(ray, piece.m10),
+        c01: project(ray, piece.m01),
+        c20: project(ray, piece.m20),
+        c11: project(ray, piece.m11),
+        c02: project(ray, piece.m02),
+    }
+}
+
+fn model_z(piece: &Piece, x: Vec2) -> f32 {
+    piece.m00.z
+        + x.x * (piece.m10.z + x.x * piece.m20.z + x.y * piece.m11.z)
+        + x.y * (piece.m01.z + x.y * piece.m02.z)
+}
+
+/// Where to start: the model's roots on or just beside the cell, nearest first.
+pub fn piece_seeds(piece: &Piece, conics: &Conics) -> Seeds {
+    let start = seeds(conics, piece.residual);
+    let swap = start.count == 2 && model_z(piece, start.second) < model_z(piece, start.first);
+    let (first, second) = if swap { (start.second, start.first) } else { (start.first, start.second) };
+    Seeds { count: start.count, first, second }
+}
+
+fn root_normal(piece: &Piece, ds: Vec3, dt: Vec3, x: Vec2) -> Vec3 {
+    let n = ds.cross(dt);
+    let c = 0.9 * x;
+    let model_ds = piece.m10 + 2.0 * c.x * piece.m20 + c.y * piece.m11;
+    let model_dt = piece.m01 + c.x * piece.m11 + 2.0 * c.y * piece.m02;
+    let model_n = model_ds.cross(model_dt);
+    let lost = n.dot(n) < 1e-8 * model_n.dot(model_n);
+    let chosen = if lost { model_n } else { n };
+    chosen / chosen.length().max(1e-37)
+}
+
+/// `pixel`: a pixel is `pixel.x + pixel.y z` wide at depth z.
+pub fn newton(
+    points: &[[f32; 4]],
+    ray: Ray,
+    axes: &Axes,
+    piece: &Piece,
+    conics: &Conics,
+    pixel: Vec2,
+    start: Vec2,
+) -> Root {
+    let mut root =
+        Root { converged: false, evaluations: 0, x: start, z: 0.0, slack: 0.0, normal: Vec3::NEG_Z };
+    for _ in 0..MAX_STEPS {
+        let p01 = 0.5 + 0.5 * root.x;
+        let jet =
+            patch_jet(points, piece.first_point, piece.degrees & 0xff, piece.degrees >> 8, p01.x, p01.y);
+        root.evaluations += 1;
+        let inverse = 1.0 / jet.s.w;
+        let p = axes_apply(axes, jet.s.xyz() * inverse);
+        let ps = 0.5 * inverse * (axes_apply(axes, jet.du.xyz()) - p * jet.du.w);
+        let pt = 0.5 * inverse * (axes_apply(axes, jet.dv.xyz()) - p * jet.dv.w);
+        let at = p + piece.shift;
+        let f = project(ray, at) - ray.offset;
+        let fs = project(ray, ps);
+        let ft = project(ray, pt);
+        let full = solve_2x2(fs, ft, -f);
+        let delta = full.clamp(Vec2::splat(-0.5), Vec2::splat(0.5));
+        let bend = conics_bilinear(conics, delta, delta);
+        let reach = delta.x.abs() + delta.y.abs();
+        let predicted = bend.x.abs() + bend.y.abs() + 12.0 * piece.residual * reach * reach;
+        let tolerance = PIXEL_TOLERANCE * (pixel.x + pixel.y * at.z.abs()) + ROUNDING * piece.size;
+        root.x += delta;
+        if root.x.x.abs().max(root.x.y.abs()) > 2.0 {
+            break;
+        }
+        if predicted <= tolerance && delta == full {
+            let ds = ps + 2.0 * delta.x * piece.m20 + delta.y * piece.m11;
+            let dt = pt + delta.x * piece.m11 + 2.0 * delta.y * piece.m02;
+            let det = (fs.x * ft.y - fs.y * ft.x).abs().max(1e-37);
+            root.converged = true;
+            root.z = at.z + delta.x * ps.z + delta.y * pt.z;
+            root.slack = (2.0 * predicted * (fs.length() + ft.length()) / det).min(0.02);
+            root.normal = root_normal(piece, ds, dt, root.x);
+            break;
+        }
+    }
+    root
+}
