@@ -16,8 +16,11 @@ pub fn run(files: &[PathBuf], demo: bool) -> Result<(), Failure> {
 
 #[cfg(feature = "editor")]
 fn open_editor(files: &[PathBuf]) -> Result<(), Failure> {
-    let options = crate::editor::EditorOptions { files: files.to_vec() };
-    crate::editor::run(options).map_err(|e| Failure::Lacking { reason: e.to_string() })
+    use crate::editor::{EditorOptions, StartError, run};
+    run(EditorOptions { files: files.to_vec() }).map_err(|error| match error {
+        StartError::Ended { .. } => Failure::Work { reason: error.to_string() },
+        _ => Failure::Lacking { reason: error.to_string() },
+    })
 }
 
 #[cfg(not(feature = "editor"))]

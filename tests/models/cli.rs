@@ -183,3 +183,21 @@ fn the_editor_says_what_it_lacks() {
     fails(&["--demo"], LACKING, hint);
     fails(&["no-such-file.igs"], BAD_INPUT, "no such file");
 }
+
+#[test]
+fn classify_answers_in_order_and_names_the_first_bad_line() {
+    // The medal's nested rings: metal, opening, island, opening in it, island in that one.
+    let (_, json, _) = run(&["info", "demo", "--json"], "");
+    let info: serde_json::Value = serde_json::from_str(&json).expect("valid JSON");
+    let medal =
+        info["faces"].as_array().expect("faces").iter().find(|f| f["name"] == "Medal").expect("a medal");
+    let face = &medal["index"];
+    let points = [(-16.0, "in"), (-9.3, "out"), (-8.2, "in"), (-3.3, "out"), (0.0, "in"), (17.5, "out")];
+    let lines: String = points.iter().map(|(u, _)| format!("{face} {u} 0.01\n")).collect();
+    let expected: String = points.iter().map(|(_, side)| format!("{side}\n")).collect();
+    let (code, stdout, stderr) = run(&["classify", "demo"], &format!("# five rings\n\n{lines}"));
+    assert_eq!((code, stdout.as_str()), (DONE, expected.as_str()), "{stderr}");
+    let (code, stdout, stderr) = run(&["classify", "demo"], &format!("{lines}9999 0 0\n"));
+    assert_eq!((code, stdout.as_str()), (BAD_INPUT, expected.as_str()));
+    assert!(stderr.contains("line 7") && stderr.contains("9999"), "{stderr}");
+}

@@ -1,13 +1,13 @@
 //! `hairline render`: a picture of a model as a PNG file.
 //!
-//! The model becomes a packed scene ([`pack`]), the view a camera ([`framing`]), and either the graphics
+//! The model becomes a packed scene ([`prepare`]), the view a camera ([`framing`]), and either the graphics
 //! driver or the processor draws; both run the same algorithm on the same buffers.
 
 mod framing;
 mod pack;
 
 pub use framing::camera_for;
-pub use pack::pack;
+pub use pack::{Prepared, prepare};
 
 use std::path::Path;
 
@@ -30,21 +30,21 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         eprintln!("hairline: note: {line}");
     }
     let progress = Progress::start("preparing faces");
-    let (mut scene, problems) = pack(&opened.model, &|part| progress.set(part));
+    let mut ready = prepare(&opened.model, &|part| progress.set(part));
     drop(progress);
-    for problem in problems {
+    for problem in &ready.problems {
         eprintln!("hairline: note: {}: {problem}; the face is left out", arguments.file.display());
     }
     let size = [arguments.size.width, arguments.size.height];
     let aspect = f64::from(size[0]) / f64::from(size[1]);
-    let camera = camera_for(arguments.view, &opened.model, &scene, aspect)?;
+    let camera = camera_for(arguments.view, &opened.model, &ready, aspect)?;
     let options = RenderOptions {
         samples: arguments.samples,
         mode: mode(arguments.mode),
         ..RenderOptions::new(camera, size)
     };
     let progress = Progress::start("drawing");
-    let image = draw(&mut scene, &options, arguments.backend)?;
+    let image = draw(&mut ready.scene, &options, arguments.backend)?;
     drop(progress);
     write_png(&image, &arguments.output)
 }

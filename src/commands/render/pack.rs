@@ -2,17 +2,28 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::encoding::{FaceShape, FaceSlot, PackedScene};
-use crate::kernel::face::Face;
+use crate::encoding::{FaceShape, PackedScene};
+use crate::kernel::face::{Face, UvRect};
 use crate::scene::records::ModelRecord;
 
-/// Derives and packs all faces of `model`: slot `k` of the scene is face `k` (from 0). Faces that cannot
-/// be derived leave their slot empty and give a line that names them. `progress` is told the part done.
-pub fn pack(model: &ModelRecord, progress: &(dyn Fn(f64) + Sync)) -> (PackedScene, Vec<String>) {
+/// A model made ready to draw.
+#[derive(Debug, Clone)]
+pub struct Prepared {
+    /// Every face by position; `None` where one cannot be derived.
+    pub faces: Vec<Option<Face>>,
+    /// The same packed: slot `k` is face `k`.
+    pub scene: PackedScene,
+    /// A line for each face that is left out.
+    pub problems: Vec<String>,
+}
+
+/// Derives and packs all faces of `model`. `progress` is told the part done, 0 to 1.
+pub fn prepare(model: &ModelRecord, progress: &(dyn Fn(f64) + Sync)) -> Prepared {
     let done = AtomicUsize::new(0);
-    let faces: Vec<_> = model
+    let derived: Vec<_> = model
         .faces
         .par_iter()
         .map(|record| {
@@ -23,20 +34,29 @@ pub fn pack(model: &ModelRecord, progress: &(dyn Fn(f64) + Sync)) -> (PackedScen
         })
         .collect();
     let (mut scene, mut problems, mut unused) = (PackedScene::default(), Vec::new(), Vec::new());
-    for (index, (record, face)) in model.faces.iter().zip(&faces).enumerate() {
-        let colour = record.colour;
+    let mut faces = Vec::with_capacity(derived.len());
+    for (index, (record, face)) in model.faces.iter().zip(derived).enumerate() {
         match face {
             Ok(face) => {
-                scene.add(&FaceShape::of(face, colour, record.reversed));
+                scene.add(&FaceShape::of(&face, record.colour, record.reversed));
+                faces.push(Some(face));
             }
             Err(error) => {
-                let domain = crate::kernel::face::UvRect { min: glam::DVec2::ZERO, max: glam::DVec2::ONE };
-                let shape = FaceShape { patches: &[], domain, grid: None, colour: [0.0; 3], reversed: false };
-                unused.push(scene.add(&shape));
+                // Holds the slot until all others have theirs.
+                unused.push(scene.add(&NOTHING));
                 problems.push(format!("face {}: {error}", index + 1));
+                faces.push(None);
             }
         }
     }
-    unused.into_iter().for_each(|slot: FaceSlot| scene.remove(slot));
-    (scene, problems)
+    unused.into_iter().for_each(|slot| scene.remove(slot));
+    Prepared { faces, scene, problems }
 }
+
+const NOTHING: FaceShape<'static> = FaceShape {
+    patches: &[],
+    domain: UvRect { min: DVec2::ZERO, max: DVec2::ONE },
+    grid: None,
+    colour: [0.0; 3],
+    reversed: false,
+};

@@ -51,6 +51,13 @@ impl Assembly {
         });
     }
 
+    /// Turns the outside of the face added last to the other side.
+    pub fn reverse(&mut self) {
+        if let Some(face) = self.model.faces.last_mut() {
+            face.reversed = !face.reversed;
+        }
+    }
+
     /// The finished model.
     pub fn finish(self) -> ModelRecord {
         self.model

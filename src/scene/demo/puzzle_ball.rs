@@ -31,6 +31,7 @@ pub fn add(assembly: &mut Assembly) {
     assembly.face("Outer shell, outside", outer.clone(), loops.clone());
     assembly.colour([0.55, 0.40, 0.24]);
     assembly.face("Outer shell, inside", inner.clone(), loops);
+    assembly.reverse();
     assembly.colour([0.83, 0.66, 0.40]);
     for (i, trim) in holes.iter().enumerate() {
         assembly.face(format!("Wall of hole {}", i + 1), wall(&outer, &inner, trim), Vec::new());

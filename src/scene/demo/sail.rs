@@ -24,8 +24,8 @@ pub fn add(assembly: &mut Assembly) {
     });
     let (letters, width) = word();
     // The sheet is about 2.3 times as long as it is high.
-    let scale = DVec2::new(0.62 / width, 2.0 * 0.62 / width);
-    let origin = DVec2::new(0.5 - 0.5 * width * scale.x, 0.785 - 0.5 * HEIGHT * scale.y);
+    let scale = DVec2::new(0.56 / width, 2.1 * 0.56 / width);
+    let origin = DVec2::new(0.5 - 0.5 * width * scale.x, 0.78 - 0.5 * HEIGHT * scale.y);
     let mut loops = vec![outline()];
     loops.extend(letters.iter().map(|curves| place(curves, |p| origin + p * scale)));
     loops.extend(dots());
@@ -39,7 +39,7 @@ fn outline() -> Vec<NurbsCurve2> {
     let mut head: Vec<DVec2> = (0..=13)
         .map(|i| {
             let s = i as f64 / 13.0;
-            let rise = 0.27 * (PI * s).sin() + 0.07 * (1.5 * TAU * s).sin().powi(2);
+            let rise = 0.20 * (PI * s).sin().powf(0.3) + 0.08 * (PI * s).sin();
             DVec2::new(high + (low - high) * s, 0.70 + rise)
         })
         .collect();
