@@ -5,6 +5,8 @@
 //! modifier keys anew every frame and egui repaints on every event, so unchanged reports are dropped:
 //! without that an idle window draws for ever.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use bevy::prelude::*;
@@ -16,14 +18,35 @@ use super::tools::CommandRequest;
 
 /// Wakes the window from any thread.
 #[derive(Resource, Clone, Default)]
-pub struct Waker(Option<bevy::winit::EventLoopProxy<WinitUserEvent>>);
+pub struct Waker {
+    proxy: Option<bevy::winit::EventLoopProxy<WinitUserEvent>>,
+    /// Whether a timer is running: one at a time is enough, who is woken too early asks again.
+    timer: Arc<AtomicBool>,
+}
 
 impl Waker {
     /// Causes a frame soon. Does nothing without a window.
     pub fn wake(&self) {
-        if let Some(proxy) = &self.0 {
+        if let Some(proxy) = &self.proxy {
             // Fails only when the event loop has ended: nothing left to wake.
             let _ = proxy.send_event(WinitUserEvent::WakeUp);
+        }
+    }
+
+    /// Causes a frame when `time` has passed, or earlier.
+    pub fn wake_after(&self, time: Duration) {
+        if self.proxy.is_none() || self.timer.swap(true, Ordering::AcqRel) {
+            return;
+        }
+        let waker = self.clone();
+        let timer = std::thread::Builder::new().name("hairline-timer".into()).spawn(move || {
+            std::thread::sleep(time);
+            waker.timer.store(false, Ordering::Release);
+            waker.wake();
+        });
+        if timer.is_err() {
+            self.timer.store(false, Ordering::Release);
+            self.wake();
         }
     }
 }
@@ -48,7 +71,7 @@ impl Plugin for RedrawPlugin {
 }
 
 fn connect(proxy: Option<Res<EventLoopProxyWrapper>>, mut waker: ResMut<Waker>) {
-    waker.0 = proxy.map(|p| (**p).clone());
+    waker.proxy = proxy.map(|p| (**p).clone());
 }
 
 /// Drops reports of modifier keys that repeat the last one.

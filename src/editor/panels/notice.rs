@@ -75,7 +75,7 @@ impl Notices {
     }
 }
 
-/// Drops what has been shown long enough; a timer thread wakes the window for it.
+/// Drops what has been shown long enough; a timer wakes the window for it.
 pub(super) fn expire(
     mut notices: ResMut<Notices>,
     waker: Res<Waker>,
@@ -91,14 +91,9 @@ pub(super) fn expire(
     }
     if std::mem::take(&mut notices.fresh) {
         redraw.write(RequestRedraw);
-        let waker = waker.clone();
-        let timer = std::thread::Builder::new().name("hairline-notice".into()).spawn(move || {
-            std::thread::sleep(STAY + Duration::from_millis(20));
-            waker.wake();
-        });
-        if timer.is_err() {
-            warn!("no thread for a timer: the notice stays until the next frame");
-        }
+    }
+    if let Some(next) = notices.list.iter().filter_map(|n| n.until).min() {
+        waker.wake_after(next.saturating_duration_since(now) + Duration::from_millis(5));
     }
 }
 

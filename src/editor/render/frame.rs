@@ -1,11 +1,15 @@
 //! What the passes need to know of the view, copied to the render world each frame.
 
+use bevy::diagnostic::{DiagnosticPath, DiagnosticsStore};
 use bevy::prelude::*;
 use bevy::render::Extract;
 
 use crate::editor::camera::ViewCamera;
 use crate::editor::camera::clip::ClipView;
 use crate::editor::derive::SceneBounds;
+use crate::editor::diagnostics::RenderFigures;
+use crate::editor::picking::Picker;
+use crate::editor::redraw::Waker;
 use crate::editor::settings::Settings;
 use crate::editor::theme::Palette;
 use crate::editor::viewport::Viewport;
@@ -20,6 +24,11 @@ pub(super) struct FrameView {
     pub bounds: Bounds,
     pub palette: Palette,
     pub settings: Settings,
+    /// Pixel of the viewport to read back.
+    pub pick: Option<UVec2>,
+    /// A new measurement of the cast's GPU time, and the resolution it was made at.
+    pub cast_ms: Option<f32>,
+    pub cast_scale: f32,
 }
 
 impl Default for FrameView {
@@ -33,6 +42,9 @@ impl Default for FrameView {
             bounds: Bounds::EMPTY,
             palette: Palette::default(),
             settings: Settings::default(),
+            pick: None,
+            cast_ms: None,
+            cast_scale: 1.0,
         }
     }
 }
@@ -45,7 +57,15 @@ pub(super) fn extract(
     bounds: Extract<Res<SceneBounds>>,
     palette: Extract<Res<Palette>>,
     settings: Extract<Res<Settings>>,
+    picker: Extract<Res<Picker>>,
+    cast_time: Extract<Res<CastTime>>,
+    new_waker: Extract<Res<Waker>>,
+    mut waker: ResMut<Waker>,
 ) {
+    *waker = new_waker.clone();
+    view.pick = picker.wanted;
+    view.cast_ms = cast_time.ms.filter(|_| cast_time.fresh);
+    view.cast_scale = cast_time.scale;
     view.camera = camera.now;
     view.viewport = **viewport;
     view.bounds = bounds.all;
@@ -54,4 +74,33 @@ pub(super) fn extract(
         view.settings = settings.clone();
     }
     view.clip = ClipView::of(&view.camera, view.viewport.aspect(), &view.bounds);
+}
+
+/// The GPU time of casting as last measured, in the main world.
+#[derive(Resource, Debug, Default)]
+pub(super) struct CastTime {
+    ms: Option<f32>,
+    fresh: bool,
+    scale: f32,
+    seen: Option<std::time::Instant>,
+}
+
+/// Reads the measurement from Bevy's diagnostics; it is a few frames old.
+pub(super) fn read_cast_time(
+    store: Res<DiagnosticsStore>,
+    mut time: ResMut<CastTime>,
+    figures: Res<RenderFigures>,
+) {
+    time.fresh = false;
+    let path = DiagnosticPath::new(format!("render/{}/elapsed_gpu", super::model::CAST_SPAN));
+    let Some(measurement) = store.get(&path).and_then(|d| d.measurement()) else { return };
+    if time.seen == Some(measurement.time) {
+        return;
+    }
+    time.seen = Some(measurement.time);
+    let mut figures = figures.lock();
+    time.ms = Some(measurement.value as f32);
+    time.scale = figures.resolution;
+    time.fresh = measurement.value > 0.05;
+    figures.gpu_ms = time.ms;
 }

@@ -1,40 +1,62 @@
 //! From derived data to pixels: extraction, upload and the passes of the viewport.
 //!
-//! Wiring: `ExtractSchedule` copies what changed; `Core3d` runs the model pass and then the lines (grid and
-//! axes) between Bevy's opaque and transparent passes, so that depth is shared with whatever Bevy draws.
+//! Wiring: `ExtractSchedule` takes over what changed; `Core3d` runs backdrop, model, highlight and lines between
+//! Bevy's opaque and transparent passes, so that depth is shared with whatever Bevy draws. The pixel under the
+//! pointer and the GPU time come back to `Update` a frame or two later. Everything on the GPU is made in
+//! `RenderStartup`, again after a device loss.
 
 mod backdrop;
+mod faces;
 mod frame;
 mod grid;
+mod highlight;
 mod lines;
+mod model;
+mod pick;
+pub mod quality;
 
 use bevy::core_pipeline::Core3d;
 use bevy::core_pipeline::Core3dSystems;
 use bevy::core_pipeline::core_3d::{CORE_3D_DEPTH_FORMAT, main_opaque_pass_3d, main_transparent_pass_3d};
 use bevy::prelude::*;
+use bevy::render::diagnostic::RenderDiagnosticsPlugin;
 use bevy::render::sync_world::RenderEntity;
-use bevy::render::{Extract, ExtractSchedule, RenderApp, RenderStartup};
+use bevy::render::{Extract, ExtractSchedule, Render, RenderApp, RenderStartup, RenderSystems};
 
+use super::EditorSystems;
 use super::camera::ViewportCamera;
+use super::redraw::Waker;
 
 /// Adds the viewport's rendering.
 pub struct RenderPlugin;
 
 impl Plugin for RenderPlugin {
     fn build(&self, app: &mut App) {
+        let answers = pick::PickAnswers::default();
+        app.add_plugins(RenderDiagnosticsPlugin)
+            .insert_resource(answers.clone())
+            .init_resource::<frame::CastTime>()
+            .add_systems(Update, (pick::deliver, frame::read_cast_time).before(EditorSystems::Input));
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
+            .insert_resource(answers)
             .init_resource::<frame::FrameView>()
-            .add_systems(RenderStartup, (backdrop::create, lines::create))
-            .add_systems(ExtractSchedule, (frame::extract, mark))
+            .init_resource::<faces::RenderFaces>()
+            .init_resource::<Waker>()
+            .add_systems(
+                RenderStartup,
+                (backdrop::create, lines::create, model::create, highlight::create, pick::create),
+            )
+            .add_systems(ExtractSchedule, (frame::extract, faces::extract, mark))
             .add_systems(
                 Core3d,
-                (backdrop::draw, lines::draw)
+                (backdrop::draw, model::draw, highlight::draw, pick::copy, lines::draw)
                     .chain()
                     .after(main_opaque_pass_3d)
                     .before(main_transparent_pass_3d)
                     .in_set(Core3dSystems::MainPass),
-            );
+            )
+            .add_systems(Render, pick::collect.in_set(RenderSystems::Cleanup));
     }
 }
 

@@ -1,0 +1,175 @@
+//! The model pass: casts, shades and presents by the plan of [`Quality`].
+
+use std::time::Instant;
+
+use bevy::prelude::*;
+use bevy::render::diagnostic::RecordDiagnostics;
+use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue, ViewQuery};
+use bevy::render::view::{ViewDepthTexture, ViewTarget};
+
+use super::faces::RenderFaces;
+use super::frame::FrameView;
+use super::quality::{Next, Plan, Quality, SAMPLES};
+use crate::editor::diagnostics::RenderFigures;
+use crate::editor::redraw::Waker;
+use crate::editor::settings::DisplayMode;
+use crate::encoding::options::jitter;
+use crate::encoding::{self, DepthRange, EdgeStyle, Theme};
+use crate::gpu::renderer::Presentation;
+use crate::gpu::{Renderer, Sample};
+use crate::kernel::view::Camera as ViewPoint;
+
+/// Name of the GPU time span of casting and shading.
+pub(super) const CAST_SPAN: &str = "hairline_cast";
+
+/// The renderer and what its picture shows.
+#[derive(Resource)]
+pub(super) struct ModelPass {
+    pub renderer: Option<(wgpu::TextureFormat, Renderer)>,
+    pub quality: Quality,
+    cast: Option<CastKey>,
+    shade: Option<ShadeKey>,
+    started: Instant,
+    /// Counts changes of the visibility buffer.
+    pub casts: u64,
+    failure: Option<String>,
+}
+
+/// What decides which ray hits what.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct CastKey {
+    camera: ViewPoint,
+    size: UVec2,
+    geometry: u64,
+    heat: bool,
+    untrimmed: bool,
+}
+
+/// What decides the colour of a hit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct ShadeKey {
+    mode: DisplayMode,
+    edges: bool,
+}
+
+/// At start, and again after a device loss: everything is made anew from the extracted faces.
+pub(super) fn create(mut commands: Commands, mut faces: ResMut<RenderFaces>) {
+    faces.repack();
+    commands.insert_resource(ModelPass {
+        renderer: None,
+        quality: Quality::default(),
+        cast: None,
+        shade: None,
+        started: Instant::now(),
+        casts: 0,
+        failure: None,
+    });
+}
+
+/// The mode as the renderer calls it.
+fn mode_of(mode: DisplayMode) -> encoding::DisplayMode {
+    match mode {
+        DisplayMode::Shaded => encoding::DisplayMode::Shaded,
+        DisplayMode::Faces => encoding::DisplayMode::Faces,
+        DisplayMode::Uv => encoding::DisplayMode::Uv,
+        DisplayMode::Heat => encoding::DisplayMode::Heat,
+        DisplayMode::Untrimmed => encoding::DisplayMode::Untrimmed,
+    }
+}
+
+/// Draws the model into the viewport's colour and depth.
+pub(super) fn draw(
+    view: ViewQuery<(&ViewTarget, &ViewDepthTexture), With<super::DrawsModel>>,
+    mut pass: ResMut<ModelPass>,
+    mut faces: ResMut<RenderFaces>,
+    frame: Res<FrameView>,
+    figures: Res<RenderFigures>,
+    waker: Res<Waker>,
+    device: Res<RenderDevice>,
+    queue: Res<RenderQueue>,
+    mut ctx: RenderContext,
+) {
+    let (target, depth) = view.into_inner();
+    let (device, pass) = (device.wgpu_device(), &mut *pass);
+    let format = target.main_texture_format();
+    if pass.renderer.as_ref().is_none_or(|(f, _)| *f != format) {
+        pass.renderer = Some((format, Renderer::new(device, format)));
+        pass.cast = None;
+        if pass.casts > 0 {
+            faces.repack();
+        }
+    }
+    let Some((_, renderer)) = &mut pass.renderer else { return };
+    let uploaded = renderer.upload(device, &queue, &mut faces.packed);
+    if let Err(error) = &uploaded {
+        let text = error.to_string();
+        if pass.failure.as_ref() != Some(&text) {
+            error!("the model cannot be drawn: {text}");
+            pass.failure = Some(text);
+        }
+        return;
+    }
+    let (min, size) = frame.viewport.physical();
+    let mode = frame.settings.mode;
+    let cast = CastKey {
+        camera: frame.camera,
+        size,
+        geometry: faces.geometry,
+        heat: mode == DisplayMode::Heat,
+        untrimmed: mode == DisplayMode::Untrimmed,
+    };
+    let shade = ShadeKey { mode, edges: frame.settings.edges };
+    if let Some(ms) = frame.cast_ms {
+        pass.quality.measure(frame.cast_scale, ms);
+    }
+    let now = pass.started.elapsed();
+    let (plan, next) = pass.quality.plan(now, pass.cast != Some(cast), pass.shade != Some(shade));
+    pass.cast = Some(cast);
+    pass.shade = Some(shade);
+
+    let edges = EdgeStyle { visible: shade.edges, width_px: frame.viewport.scale_factor };
+    let recorder = ctx.diagnostic_recorder();
+    let span = recorder.as_deref().map(|r| r.time_span(ctx.command_encoder(), CAST_SPAN));
+    match plan {
+        Plan::Keep => {}
+        Plan::Shade => renderer.shade(device, &queue, ctx.command_encoder(), mode_of(mode), edges, true),
+        Plan::Cast { scale, sample } => {
+            let scaled = (size.as_vec2() * scale).ceil().as_uvec2().max(UVec2::ONE);
+            let rays = Sample {
+                camera: frame.camera,
+                depth: DepthRange { near: frame.clip.near, far: frame.clip.far },
+                size: scaled.to_array(),
+                jitter: jitter(sample),
+                mode: mode_of(mode),
+            };
+            renderer.cast(device, &queue, ctx.command_encoder(), &rays);
+            renderer.shade(device, &queue, ctx.command_encoder(), mode_of(mode), edges, sample == 0);
+            pass.casts += 1;
+        }
+    }
+    if let Some(span) = span {
+        span.end(ctx.command_encoder());
+    }
+    let presentation = Presentation {
+        theme: Theme::Transparent,
+        encode_srgb: !format.is_srgb(),
+        viewport: Some([min.x, min.y, size.x, size.y]),
+    };
+    let target_view = target.main_texture_view();
+    renderer.present(device, &queue, ctx.command_encoder(), target_view, Some(depth.view()), &presentation);
+    report(&figures, &pass.quality, &faces);
+    match next {
+        _ if faces.is_waiting() => waker.wake(),
+        Next::Now => waker.wake(),
+        Next::After(time) => waker.wake_after(time),
+        Next::Never => {}
+    }
+}
+
+fn report(figures: &RenderFigures, quality: &Quality, faces: &RenderFaces) {
+    let mut figures = figures.lock();
+    figures.samples = quality.samples();
+    figures.samples_wanted = SAMPLES;
+    figures.resolution = quality.scale();
+    figures.gpu_bytes = faces.packed.bytes() as u64;
+}
