@@ -201,3 +201,26 @@ fn classify_answers_in_order_and_names_the_first_bad_line() {
     assert_eq!((code, stdout.as_str()), (BAD_INPUT, expected.as_str()));
     assert!(stderr.contains("line 7") && stderr.contains("9999"), "{stderr}");
 }
+
+#[test]
+fn a_missing_driver_is_an_error_only_when_asked_for() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let picture = folder.path().join("x.png");
+    let render = |backend: &[&str]| {
+        let output = hairline()
+            .args(["render", "demo", "--size", "64x48", "--samples", "1", "-o"])
+            .arg(&picture)
+            .args(backend)
+            .env("VK_DRIVER_FILES", "/nowhere/driver.json")
+            .env("VK_ICD_FILENAMES", "/nowhere/driver.json")
+            .output();
+        finished(output.expect("the binary starts"))
+    };
+    let (code, _, stderr) = render(&["--backend", "gpu"]);
+    assert_eq!(code, LACKING, "{stderr}");
+    assert!(!picture.exists());
+    let (code, _, stderr) = render(&[]);
+    assert_eq!(code, DONE, "{stderr}");
+    assert!(fs::read(&picture).expect("a picture").starts_with(b"\x89PNG"));
+    assert_eq!(fs::read_dir(folder.path()).expect("listable").count(), 1);
+}

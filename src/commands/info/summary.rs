@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::exchange::report::{ImportReport, Remark, Severity};
 use crate::kernel::face::Face;
-use crate::kernel::query::face_area;
+use crate::kernel::query::{face_area, face_bounds};
 use crate::kernel::trim::TrimStructure;
 use crate::kernel::view::Bounds;
 use crate::scene::records::{FaceRecord, LengthUnit, ModelRecord, SourceRecord};
@@ -167,7 +167,7 @@ impl Derived {
     fn new(record: &FaceRecord) -> Result<Self, String> {
         let face = Face::derive(record).map_err(|e| e.to_string())?;
         let area = face_area(&face).value;
-        Ok(Self { area: area.is_finite().then_some(area), bounds: face.bounds, face })
+        Ok(Self { area: area.is_finite().then_some(area), bounds: face_bounds(&face), face })
     }
 }
 

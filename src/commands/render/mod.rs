@@ -16,6 +16,7 @@ use super::failure::Failure;
 use super::progress::Progress;
 use super::{output, source};
 use crate::encoding::{DisplayMode, Image, PackedScene, RenderOptions};
+use crate::reference;
 
 /// Draws `arguments.file` into `arguments.output`.
 ///
@@ -69,12 +70,12 @@ pub fn draw(
     backend: Option<Backend>,
 ) -> Result<Image, Failure> {
     match backend {
-        Some(Backend::Cpu) => draw_on_cpu(scene, options),
+        Some(Backend::Cpu) => Ok(reference::render_image(scene, options)),
         Some(Backend::Gpu) => draw_on_gpu(scene, options),
         None => match draw_on_gpu(scene, options) {
             Err(Failure::Lacking { reason }) => {
                 eprintln!("hairline: note: {reason}; the processor draws instead");
-                draw_on_cpu(scene, options)
+                Ok(reference::render_image(scene, options))
             }
             result => result,
         },
@@ -94,10 +95,6 @@ fn draw_on_gpu(scene: &mut PackedScene, options: &RenderOptions) -> Result<Image
 #[cfg(not(feature = "gpu"))]
 fn draw_on_gpu(_scene: &mut PackedScene, _options: &RenderOptions) -> Result<Image, Failure> {
     Err(Failure::Lacking { reason: "this program was built without graphics drivers (feature `gpu`)".into() })
-}
-
-fn draw_on_cpu(_scene: &PackedScene, _options: &RenderOptions) -> Result<Image, Failure> {
-    Err(Failure::Lacking { reason: "the processor cannot draw yet".into() })
 }
 
 fn write_png(image: &Image, path: &Path) -> Result<(), Failure> {
