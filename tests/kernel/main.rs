@@ -2,6 +2,7 @@
 
 mod areas;
 mod bounds;
+mod closest;
 mod parity;
 mod raycast;
 mod splines;

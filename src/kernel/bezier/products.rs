@@ -6,8 +6,9 @@
 
 use glam::DVec3;
 
-use super::BezierPatch;
 use super::bernstein::binomial_row;
+use super::{BezierCurve, BezierPatch};
+use crate::kernel::vector::Vector;
 
 /// A vector- or number-valued tensor-product polynomial in scaled Bernstein form: coefficient `(i, j)`
 /// times `C(m, i) C(n, j)`.
@@ -66,11 +67,14 @@ fn difference(a: (DVec3, f64), b: (DVec3, f64)) -> (DVec3, f64) {
 
 impl<T: Copy> Scaled<T> {
     /// The product under a bilinear `times`: a plain convolution in scaled form.
-    pub fn product<S: Copy>(&self, other: &Scaled<S>, times: impl Fn(T, S) -> DVec3) -> Scaled<DVec3> {
+    pub fn product<S: Copy, P>(&self, other: &Scaled<S>, times: impl Fn(T, S) -> P) -> Scaled<P>
+    where
+        P: Copy + Default + std::ops::AddAssign,
+    {
         let ((m1, n1), (m2, n2)) = (self.degree, other.degree);
         let degree = (m1 + m2, n1 + n2);
         let stride = degree.1 + 1;
-        let mut coefficients = vec![DVec3::ZERO; (degree.0 + 1) * stride];
+        let mut coefficients = vec![P::default(); (degree.0 + 1) * stride];
         for (k, a) in self.coefficients.iter().enumerate() {
             let (i, j) = (k / (n1 + 1), k % (n1 + 1));
             for (l, b) in other.coefficients.iter().enumerate() {
@@ -99,4 +103,37 @@ impl BezierPatch {
         };
         (numerator(&du), numerator(&dv))
     }
+}
+
+/// Scaled coefficients of the squared distance of `patch` from `target` times the squared weight, each with that
+/// of the squared weight alone.
+pub(crate) fn distance_coefficients(patch: &BezierPatch, target: DVec3) -> Vec<(f64, f64)> {
+    let values = patch.points.iter().zip(&patch.weights).map(|(p, w)| ((*p - target) * *w, *w));
+    let net = Net { degree: (patch.degree_u, patch.degree_v), values: values.collect() };
+    let (off, w) = (net.scaled(|h| h.0), net.scaled(|h| h.1));
+    let (distance, weight) = (off.product(&off, DVec3::dot), w.product(&w, |a, b| a * b));
+    distance.coefficients.into_iter().zip(weight.coefficients).collect()
+}
+
+/// The same for a curve.
+pub(crate) fn distance_coefficients_of_curve<V: Vector>(
+    curve: &BezierCurve<V>,
+    target: V,
+) -> Vec<(f64, f64)> {
+    let scale = binomial_row(curve.degree());
+    let scaled: Vec<(V, f64)> = curve
+        .points
+        .iter()
+        .zip(&curve.weights)
+        .zip(scale)
+        .map(|((p, w), b)| ((*p - target) * (w * b), w * b))
+        .collect();
+    let mut coefficients = vec![(0.0, 0.0); 2 * scaled.len() - 1];
+    for (i, a) in scaled.iter().enumerate() {
+        for (j, b) in scaled.iter().enumerate() {
+            coefficients[i + j].0 += a.0.dot(b.0);
+            coefficients[i + j].1 += a.1 * b.1;
+        }
+    }
+    coefficients
 }
