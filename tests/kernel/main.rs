@@ -3,6 +3,7 @@
 mod areas;
 mod bounds;
 mod closest;
+mod loops;
 mod parity;
 mod raycast;
 mod splines;

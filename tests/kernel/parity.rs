@@ -6,6 +6,7 @@ use glam::{DVec2, Vec2};
 use hairline::commands::bench::shapes::{Loops, Random, Shape, circle};
 use hairline::kernel::bezier::BezierCurve2;
 use hairline::kernel::trim::grid::GridOptions;
+use hairline::kernel::trim::grid::layout::CELL_REFINED;
 use hairline::kernel::trim::pack::PackedSegments;
 use hairline::kernel::trim::{
     BruteForce, FillRule, ParityGrid, PieceList, SegmentSet, TrimStructure, oracle,
@@ -150,7 +151,7 @@ fn zoo() -> Vec<(&'static str, Loops)> {
         ("rational holes", Shape::RationalHoles.loops(60)),
         ("blob", Shape::Blob.loops(200)),
         ("hair", Shape::Hair.loops(400)),
-        ("nested", (0..8).map(|k| circle(c, 0.5 - 0.05 * f64::from(k), f64::from(k), k % 2 == 0)).collect()),
+        ("nested", (0..8).map(|k| circle(c, 0.5 - 0.05 * f64::from(k), f64::from(k), k & 1 == 0)).collect()),
         ("touching square", vec![square(), circle(c, 0.5, 0.0, true)]),
         (
             "tangent",
@@ -226,10 +227,16 @@ fn zoo() -> Vec<(&'static str, Loops)> {
 
 #[test]
 fn the_grid_equals_brute_force_bit_for_bit_on_the_zoo() {
+    let mut refined = 0;
     for (name, loops) in zoo() {
         println!("{name}");
-        Trimmed::new(&loops).check(3000, 1);
+        let trimmed = Trimmed::new(&loops);
+        trimmed.check(3000, 1);
+        let options = GridOptions { cells_per_segment: Some(0.01), crowded: 3, ..GridOptions::default() };
+        let grid = ParityGrid::new(&trimmed.set, &trimmed.packed, &options);
+        refined += grid.cells.iter().filter(|c| *c & CELL_REFINED != 0).count();
     }
+    assert!(refined > 20, "only {refined} cells of the zoo are refined");
 }
 
 #[test]

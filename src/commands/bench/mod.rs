@@ -2,10 +2,18 @@
 //!
 //! Every table takes its rivals and its floor in the same run, so that the ratios hold on any machine.
 
+pub mod build;
+pub mod classify;
+pub mod rivals;
 pub mod shapes;
+pub mod sheet;
+
+use std::io;
+use std::path::PathBuf;
 
 use super::arguments::{BenchArguments, Table};
 use super::failure::Failure;
+use crate::scene::records::ModelRecord;
 
 /// Prints the tables asked for, all of them without a name.
 ///
@@ -16,9 +24,24 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
         Some(table) => vec![table],
         None => vec![Table::Classify, Table::Build, Table::Raycast, Table::Misses],
     };
+    let models = models(&arguments.files)?;
+    let mut out = std::io::stdout().lock();
     tables.into_iter().try_for_each(|table| match table {
-        Table::Classify | Table::Build | Table::Raycast | Table::Misses => {
+        Table::Classify => classify::run(&models, &mut out).map_err(unwritable),
+        Table::Build => build::run(&models, &mut out).map_err(unwritable),
+        Table::Raycast | Table::Misses => {
             Err(Failure::Lacking { reason: format!("the table {table:?} is not there yet") })
         }
     })
+}
+
+fn models(files: &[PathBuf]) -> Result<Vec<ModelRecord>, Failure> {
+    files.iter().map(|file| super::source::open(file, &|_| ()).map(|opened| opened.model)).collect()
+}
+
+fn unwritable(error: io::Error) -> Failure {
+    if error.kind() == io::ErrorKind::BrokenPipe {
+        return Failure::Closed;
+    }
+    Failure::Output { path: "standard output".into(), reason: error.to_string() }
 }

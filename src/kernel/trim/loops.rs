@@ -234,7 +234,7 @@ impl Arranger<'_> {
         let close_high = self.close_high(&rings, axis);
         // With an even number of rings the border they close along cancels out: cut there.
         let all = ring_boxes.iter().chain(boxes).fold(UvRect::EMPTY, |a, b| a.union(*b));
-        if rings.len() % 2 == 0 {
+        if rings.len().is_multiple_of(2) {
             domain.min[other] = all.min[other];
             domain.max[other] = all.max[other];
         } else if close_high {

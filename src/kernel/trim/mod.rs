@@ -29,6 +29,7 @@ pub use brute::BruteForce;
 pub use domain::{Periods, UvRect};
 pub use grid::ParityGrid;
 pub use intervals::IntervalLists;
+pub use pack::PackedSegments;
 pub use pieces::{Piece, PieceList};
 pub use remark::TrimRemark;
 pub use segment::{Segment, SegmentSet};
@@ -67,7 +68,7 @@ pub trait TrimStructure {
 pub fn clamp_to_square(uv: Vec2) -> Option<Vec2> {
     let (low, high) = (-BORDER, 1.0 + BORDER);
     if uv.x >= low && uv.x <= high && uv.y >= low && uv.y <= high {
-        Some(Vec2::new(uv.x.max(0.0).min(BELOW_ONE), uv.y.max(0.0).min(BELOW_ONE)))
+        Some(Vec2::new(uv.x.clamp(0.0, BELOW_ONE), uv.y.clamp(0.0, BELOW_ONE)))
     } else {
         None
     }

@@ -2,10 +2,12 @@
 
 use glam::DVec2;
 
+use super::fat;
 use super::grid::layout::ENTRY_SHIFT;
 use super::pieces::PieceList;
 use super::record::entry_word;
 use super::segment::{Segment, SegmentSet};
+use crate::kernel::bezier::bernstein::binomial_row;
 
 /// Records of all segments of a face and, for each, its entry word without lo and hi bits.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -69,31 +71,19 @@ impl Scratch {
         let rational = piece.rational;
         let compact = degree == 3 && !rational;
         self.words.clear();
-        if !compact {
-            self.words.push(0.0);
-        }
-        let mut binomial = 1.0;
+        let binomials = binomial_row(degree);
         for i in 1..degree {
-            binomial *= (degree - i + 1) as f64 / i as f64;
-            let w = binomial * self.weights[i];
+            let w = binomials[i] * self.weights[i];
             let q = (points[at(i)] - origin) * w;
             self.words.extend([q.x as f32, q.y as f32]);
             if rational {
                 self.words.push(w as f32);
             }
         }
-        let mut bits: Vec<u32> = Vec::new();
-        if !compact {
-            let fat = super::fat::bounds(&self.words[1..], degree, rational, segment.ends);
-            bits.push(super::fat::pack(fat));
-            bits.extend(self.words[1..].iter().map(|x| x.to_bits()));
-        } else {
-            bits.extend(self.words.iter().map(|x| x.to_bits()));
-        }
-        for unit in bits.chunks(4) {
-            let mut padded = [0u32; 4];
-            padded[..unit.len()].copy_from_slice(unit);
-            data.push(padded);
+        let fat = (!compact).then(|| fat::pack(fat::bounds(&self.words, degree, rational, segment.ends)));
+        let mut bits = fat.into_iter().chain(self.words.iter().map(|x| x.to_bits())).peekable();
+        while bits.peek().is_some() {
+            data.push(std::array::from_fn(|_| bits.next().unwrap_or(0)));
         }
         entry_word(address, degree as u32, rational, segment.down)
     }

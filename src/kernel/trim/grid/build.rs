@@ -53,7 +53,7 @@ pub fn build(set: &SegmentSet, packed: &PackedSegments, options: &GridOptions) -
         return Built::default();
     }
     let per_segment = options.cells_per_segment.unwrap_or(if count < 64 { 4.0 } else { 2.0 });
-    let side = (per_segment * count as f64).sqrt().ceil().clamp(1.0, MAX_SIDE) as u32;
+    let side = (per_segment * count as f64).sqrt().round().clamp(1.0, MAX_SIDE) as u32;
     let frame = Frame::outer(side, side);
     let header = GridHeader {
         columns: side,

@@ -15,7 +15,7 @@ pub fn classify(grid: &GridView, u: f32, v: f32, tally: &mut impl Tally) -> bool
     if header.columns == 0 || !(u >= low && u <= high && v >= low && v <= high) {
         return false;
     }
-    let winding = winding_number(grid, u.max(0.0).min(BELOW_ONE), v.max(0.0).min(BELOW_ONE), tally);
+    let winding = winding_number(grid, u.clamp(0.0, BELOW_ONE), v.clamp(0.0, BELOW_ONE), tally);
     if header.flags & FLAG_NON_ZERO != 0 { winding != 0 } else { winding & 1 != 0 }
 }
 

@@ -25,6 +25,9 @@ pub(super) struct Listed {
 const SMALLEST_CELL: f64 = 2e-5;
 /// Largest child block, cells along one side.
 const MAX_CHILD: f64 = 16.0;
+/// A child block may take this many words for each entry of its parent: refining is for many small
+/// segments in one cell, not for long strands side by side, which every child row would list again.
+const WORDS_PER_ENTRY: usize = 4;
 
 /// Writes blocks, refining where it pays.
 pub(super) struct Refiner<'a> {
@@ -77,15 +80,16 @@ impl<'a> Refiner<'a> {
             return None;
         }
         let child = frame.child(cell % frame.columns, cell / frame.columns, k);
-        let lists = self.child_lists(&child, entries, winding);
-        // Worth it only when a list gets at most half as long on average.
-        (2 * lists.entries.len() <= count * (k * k) as usize).then_some((child, lists))
+        let members: Vec<Member> =
+            entries.iter().map(|e| Member::new(&child, e, self.set, self.packed)).collect();
+        let listed: usize = members.iter().map(|m| m.cells(child.columns)).sum();
+        let cells = (k * k) as usize;
+        let thins_out = 2 * listed <= count * cells && cells + listed <= WORDS_PER_ENTRY * count;
+        thins_out.then(|| (child.clone(), self.child_lists(&child, entries, &members, winding)))
     }
 
-    fn child_lists(&self, frame: &Frame, parent: &[Listed], winding: i32) -> Lists {
+    fn child_lists(&self, frame: &Frame, parent: &[Listed], members: &[Member], winding: i32) -> Lists {
         let (columns, rows) = (frame.columns, frame.rows);
-        let members: Vec<Member> =
-            parent.iter().map(|e| Member::new(frame, e, self.set, self.packed)).collect();
         let member_of = |segment: u32| {
             // Entries stand in the order of their segments.
             parent.binary_search_by_key(&segment, |e| e.segment).ok().map(|i| &members[i])
@@ -168,6 +172,12 @@ impl Member {
 
     fn span(&self, row: i32) -> Option<Span> {
         usize::try_from(row - self.first_row).ok().and_then(|i| self.spans.get(i)).copied()
+    }
+
+    /// Number of cells that list it.
+    fn cells(&self, columns: i32) -> usize {
+        let cells = |s: &Span| (s.last.min(columns - 1) - s.first.max(0) + 1).max(0) as usize;
+        self.spans.iter().map(cells).sum()
     }
 
     /// Its share of what lies right of the parent cell, at the top of `row`.
