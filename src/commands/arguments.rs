@@ -128,7 +128,7 @@ Examples:
 
 Each input line is `face u v`: the number of a face (from 1) and native surface parameters, parted
 by blanks, tabs or commas. Each gives one line in the same order: `in`, `out`, or `on` for a point
-on a trim curve (within 1e-9 of the size of the face's parameter box). Empty lines and lines that
+on a trim curve (within 1e-7 of the size of the face's parameter box, the precision of trimming). Empty lines and lines that
 start with # are passed over without an answer. The first bad line (not three numbers, no such
 face) stops the run with its line number and exit code 2; answers before it have been printed.")]
 pub struct ClassifyArguments {

@@ -5,13 +5,12 @@
 
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
 
-use rayon::prelude::*;
-
 use super::arguments::ClassifyArguments;
 use super::failure::{Failure, plain};
 use super::progress::Progress;
 use super::source;
 use crate::kernel::face::{Face, Side};
+use crate::kernel::query::Locator;
 
 /// Answers standard input on standard output.
 ///
@@ -21,27 +20,28 @@ pub fn run(arguments: &ClassifyArguments) -> Result<(), Failure> {
     let progress = Progress::start(format!("reading {}", arguments.file.display()));
     let opened = source::open(&arguments.file, &|part| progress.set(part))?;
     drop(progress);
-    let faces = opened.model.faces.par_iter().enumerate().map(|(index, record)| {
-        Face::derive(record).map_err(|e| Failure::Input {
-            path: arguments.file.clone(),
-            reason: format!("face {}: {e}", index + 1),
-        })
-    });
-    let faces = faces.collect::<Result<Vec<_>, _>>()?;
-    answer(io::stdin().lock(), io::stdout().lock(), faces.len(), |face, u, v| {
-        faces[face].classify_native(u, v)
+    let records = &opened.model.faces;
+    // Faces are made ready when first asked for: a few questions to a large model cost little.
+    let mut ready: Vec<Option<Locator>> = vec![None; records.len()];
+    answer(io::stdin().lock(), io::stdout().lock(), records.len(), |face, u, v| {
+        if ready[face].is_none() {
+            let derived = Face::derive(&records[face]).map_err(|e| format!("face {}: {e}", face + 1))?;
+            ready[face] = Some(Locator::new(derived));
+        }
+        Ok(ready[face].as_ref().map_or(Side::Out, |locator| locator.classify_native(u, v)))
     })
 }
 
 /// Reads `face u v` lines from `input` and writes `classify(face - 1, u, v)` for each to `output`.
 ///
 /// # Errors
-/// [`Failure::Line`] for a line that is not three numbers or names no face of `1..=faces`.
+/// [`Failure::Line`] for a line that is not three numbers or names no face of `1..=faces`, and when
+/// `classify` fails.
 pub fn answer(
     input: impl Read,
     output: impl Write,
     faces: usize,
-    mut classify: impl FnMut(usize, f64, f64) -> Side,
+    mut classify: impl FnMut(usize, f64, f64) -> Result<Side, String>,
 ) -> Result<(), Failure> {
     let mut input = BufReader::with_capacity(1 << 16, input);
     let mut output = BufWriter::with_capacity(1 << 16, output);
@@ -60,13 +60,15 @@ pub fn answer(
         if length == 0 {
             break;
         }
-        let query = parse(&line, faces).map_err(|reason| {
-            // Answers given so far must reach the reader before the complaint.
-            let _ = output.flush();
-            Failure::Line { line: number, reason }
-        })?;
-        if let Some((face, u, v)) = query {
-            output.write_all(word(classify(face, u, v))).map_err(|e| Failure::stdout(&e))?;
+        let side = parse(&line, faces)
+            .and_then(|query| query.map(|(face, u, v)| classify(face, u, v)).transpose())
+            .map_err(|reason| {
+                // Answers given so far must reach the reader before the complaint.
+                let _ = output.flush();
+                Failure::Line { line: number, reason }
+            })?;
+        if let Some(side) = side {
+            output.write_all(word(side)).map_err(|e| Failure::stdout(&e))?;
         }
     }
     output.flush().map_err(|e| Failure::stdout(&e))
@@ -121,10 +123,12 @@ mod tests {
 
     fn answers(text: &str) -> (String, Result<(), Failure>) {
         let mut output = Vec::new();
-        let result = answer(text.as_bytes(), &mut output, 2, |face, u, v| match face {
-            0 if u < v => Side::In,
-            0 => Side::Out,
-            _ => Side::On,
+        let result = answer(text.as_bytes(), &mut output, 2, |face, u, v| {
+            Ok(match face {
+                0 if u < v => Side::In,
+                0 => Side::Out,
+                _ => Side::On,
+            })
         });
         (String::from_utf8(output).expect("text"), result)
     }
@@ -160,7 +164,7 @@ mod tests {
         let (_, result) = answers(&"1".repeat(1 << 20));
         assert!(result.expect_err("too long").to_string().contains("longer than"));
         let mut output = Vec::new();
-        let result = answer(&b"\xff\xfe\n"[..], &mut output, 2, |_, _, _| Side::In);
+        let result = answer(&b"\xff\xfe\n"[..], &mut output, 2, |_, _, _| Ok(Side::In));
         assert!(result.expect_err("binary").to_string().contains("not text"));
     }
 }

@@ -86,7 +86,7 @@ pub struct Face {
 /// Distance (normalised) within which a point is on a trim curve: the precision of trimming in f32.
 pub const ON_TOLERANCE: f64 = 1e-7;
 /// Nearer than this to a trim curve the f64 oracle decides instead of the grid.
-const NEAR: f64 = 2e-6;
+pub(crate) const NEAR: f64 = 2e-6;
 
 impl Face {
     /// Derives patches and trimming of one face.

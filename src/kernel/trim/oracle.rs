@@ -83,13 +83,15 @@ pub fn point(list: &PieceList, piece: &Piece, t: f64) -> DVec2 {
 
 /// Whether some trim curve passes within `tolerance` of `p`.
 pub fn is_on(list: &PieceList, p: DVec2, tolerance: f64) -> bool {
-    list.pieces().iter().any(|piece| {
-        let (a, b) = (list.start(piece), list.end(piece));
-        let reach = DVec2::splat(tolerance);
-        let near =
-            (p - (a.min(b) - reach)).min_element() >= 0.0 && (a.max(b) + reach - p).min_element() >= 0.0;
-        near && reaches(list, piece, p, tolerance, (0.0, a), (1.0, b), 0)
-    })
+    list.pieces().iter().any(|piece| is_on_piece(list, piece, p, tolerance))
+}
+
+/// Whether one piece passes within `tolerance` of `p`.
+pub fn is_on_piece(list: &PieceList, piece: &Piece, p: DVec2, tolerance: f64) -> bool {
+    let (a, b) = (list.start(piece), list.end(piece));
+    let reach = DVec2::splat(tolerance);
+    let near = (p - (a.min(b) - reach)).min_element() >= 0.0 && (a.max(b) + reach - p).min_element() >= 0.0;
+    near && reaches(list, piece, p, tolerance, (0.0, a), (1.0, b), 0)
 }
 
 /// Whether the part of a monotone piece between two of its points comes within `tolerance` of `p`.
