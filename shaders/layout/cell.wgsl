@@ -18,7 +18,7 @@ struct Cell {
     m10: vec3f,
     size: f32,             // length of the box's half diagonal
     m01: vec3f,
-    pad0: u32,
+    flags: u32,            // CELL_WHOLE
     m20: vec3f,
     pad1: u32,
     m11: vec3f,
@@ -26,3 +26,6 @@ struct Cell {
     m02: vec3f,
     pad3: u32,
 }
+
+// No trim curve passes through the cell: everything on it is kept.
+const CELL_WHOLE: u32 = 1u;

@@ -83,11 +83,12 @@ fn piece_seeds(piece: Piece, conics: Conics) -> Seeds {
 
 // The normal at a root from first derivatives; the model stands in where they vanish (poles).
 fn root_normal(piece: Piece, ds: vec3f, dt: vec3f, x: vec2f) -> vec3f {
-    let n = cross(ds, dt);
+    // The view axes are left-handed (z forward), so the factors change places.
+    let n = cross(dt, ds);
     let c = 0.9 * x;
     let model_ds = piece.m10 + 2.0 * c.x * piece.m20 + c.y * piece.m11;
     let model_dt = piece.m01 + c.x * piece.m11 + 2.0 * c.y * piece.m02;
-    let model_n = cross(model_ds, model_dt);
+    let model_n = cross(model_dt, model_ds);
     let lost = dot(n, n) < 1e-8 * dot(model_n, model_n);
     let chosen = select(n, model_n, lost);
     return chosen / max(length(chosen), 1e-37);

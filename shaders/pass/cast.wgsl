@@ -29,7 +29,7 @@ fn load_trim_data(index: u32) -> vec4f {
 
 struct Proxy {
     @builtin(position) position: vec4f,
-    @location(0) @interpolate(flat) ids: vec4u,      // face slot, first point, degrees, face flags
+    @location(0) @interpolate(flat) ids: vec4u,      // face slot, first point, degrees, 1: trim
     @location(1) @interpolate(flat) m00: vec4f,      // quadratic model in view axes; w: residual
     @location(2) @interpolate(flat) m10: vec4f,      // w: size
     @location(3) @interpolate(flat) m01: vec3f,
@@ -76,7 +76,8 @@ fn vertex(@builtin(vertex_index) vertex_index: u32, @builtin(instance_index) ins
     let clip = vec4f(p.xy * view.clip_scale - jitter * w, view.depth.x + view.depth.y * p.z, w);
     var out: Proxy;
     out.position = select(vec4f(0.0, 0.0, -1.0, 1.0), clip, (face.flags & FACE_VISIBLE) != 0u);
-    out.ids = vec4u(cell.face, cell.first_point, cell.degrees, face.flags);
+    let trimmed = (face.flags & FACE_TRIMMED) != 0u && (cell.flags & CELL_WHOLE) == 0u;
+    out.ids = vec4u(cell.face, cell.first_point, cell.degrees, u32(trimmed));
     out.m00 = vec4f(axes_apply(axes, cell.m00) + shift, cell.residual);
     out.m10 = vec4f(axes_apply(axes, cell.m10), cell.size);
     out.m01 = axes_apply(axes, cell.m01);
@@ -128,7 +129,7 @@ fn fragment(in: Proxy) -> Visibility {
         if (root.converged && on_cell && depth > 0.0 && depth <= 1.0) {
             uv = clamp(mix(in.uv.xy, in.uv.zw, 0.5 + 0.5 * root.x), vec2f(0.0), vec2f(BELOW_ONE));
             normal = root.normal;
-            if (trim && (in.ids.w & FACE_TRIMMED) != 0u) {
+            if (trim && in.ids.w != 0u) {
                 let verdict = classify(grid_header(in), uv.x, uv.y);
                 kept = verdict.inside;
                 curve_evaluations += verdict.evaluations;

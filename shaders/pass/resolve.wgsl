@@ -66,8 +66,7 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let eye = -normalize(vec3f(ray.slope, 1.0));
     let heat = look.mode == MODE_HEAT;
     var n = select(unpack_normal(here.w), unpack_heat_normal(here.w), heat);
-    // View axes are left-handed (z forward), so du x dv points to the inside there.
-    let outside = (dot(n, eye) < 0.0) != ((face.flags & FACE_REVERSED) != 0u);
+    let outside = (dot(n, eye) >= 0.0) != ((face.flags & FACE_REVERSED) != 0u);
     n = select(-n, n, dot(n, eye) >= 0.0);
     var base = face.colour;
     if (look.mode == MODE_FACES) {

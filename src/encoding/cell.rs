@@ -30,13 +30,18 @@ pub struct Cell {
     pub m10: [f32; 3],
     pub size: f32,
     pub m01: [f32; 3],
-    pub pad0: u32,
+    pub flags: u32,
     pub m20: [f32; 3],
     pub pad1: u32,
     pub m11: [f32; 3],
     pub pad2: u32,
     pub m02: [f32; 3],
     pub pad3: u32,
+}
+
+impl Cell {
+    /// No trim curve passes through the cell: everything on it is kept.
+    pub const WHOLE: u32 = 1;
 }
 
 /// The quadratic `m[0] + m[1] s + m[2] t + m[3] s^2 + m[4] s t + m[5] t^2` near a patch, for s, t in -1..1.
@@ -177,7 +182,7 @@ pub fn pack(patch: &BezierPatch, uv: (DVec2, DVec2), face: u32, points: &mut Vec
         m10: m[1],
         size: (size + 2.0 * margin) as f32,
         m01: m[2],
-        pad0: 0,
+        flags: 0,
         m20: m[3],
         pad1: 0,
         m11: m[4],

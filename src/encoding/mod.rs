@@ -2,6 +2,7 @@
 
 pub mod arena;
 pub mod cell;
+pub mod coverage;
 pub mod face;
 pub mod look;
 pub mod options;

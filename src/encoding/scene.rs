@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 
 use super::arena::Arena;
 use super::cell::{self, Cell};
+use super::coverage::{Coverage, coverage};
 use super::face::FaceHeader;
 use super::subdivision;
 use crate::kernel::bezier::BezierPatch;
@@ -187,7 +188,7 @@ impl PackedScene {
         let (mut cells, mut points) = (Vec::new(), Vec::new());
         let mut bounds = Bounds::EMPTY;
         for patch in shape.patches {
-            pack_patch(patch, shape.domain, slot, &mut cells, &mut points, &mut bounds);
+            pack_patch(patch, shape, slot, &mut cells, &mut points, &mut bounds);
         }
         let points = self.points.insert(&points);
         cells.iter_mut().for_each(|c: &mut Cell| c.first_point += points.start);
@@ -233,12 +234,13 @@ impl PackedScene {
 /// Cuts what lies in `domain` of a patch into cells.
 fn pack_patch(
     patch: &BezierPatch,
-    domain: UvRect,
+    shape: &FaceShape,
     slot: u32,
     cells: &mut Vec<Cell>,
     points: &mut Vec<[f32; 4]>,
     bounds: &mut Bounds,
 ) {
+    let domain = shape.domain;
     let min = patch.uv_min.max(domain.min);
     let max = patch.uv_max.min(domain.max);
     if !(min.x < max.x && min.y < max.y) {
@@ -249,9 +251,62 @@ fn pack_patch(
     // Mixed so that corners on the domain's border are exactly 0 or 1.
     let normalised = |p: DVec2| domain.normalise(min * (DVec2::ONE - p) + max * p);
     for (piece, low, high) in subdivision::pieces(&part) {
-        *bounds = bounds.union(Bounds::of(corner_sample(&piece)));
-        cells.push(cell::pack(&piece, (normalised(low), normalised(high)), slot, points));
+        let tile = Tile { piece, uv: (normalised(low), normalised(high)) };
+        let mut kept = Vec::new();
+        split_by_trims(tile, shape.grid, TRIM_SPLITS, &mut kept);
+        for (tile, coverage) in kept {
+            *bounds = bounds.union(Bounds::of(corner_sample(&tile.piece)));
+            let mut cell = cell::pack(&tile.piece, tile.uv, slot, points);
+            cell.flags = if coverage == Coverage::Whole { Cell::WHOLE } else { 0 };
+            cells.push(cell);
+        }
     }
+}
+
+/// A piece of a patch with the face-normalised parameters of its corners.
+struct Tile {
+    piece: BezierPatch,
+    uv: (DVec2, DVec2),
+}
+
+/// Halvings of a piece that trims pass through, to leave out more of what is trimmed away.
+const TRIM_SPLITS: u32 = 4;
+
+/// Pieces of `tile` that show anything. It is cut only where that frees one part entirely.
+fn split_by_trims(
+    tile: Tile,
+    grid: Option<&ParityGrid>,
+    splits: u32,
+    kept: &mut Vec<(Tile, Coverage)>,
+) -> bool {
+    let found = grid.map_or(Coverage::Whole, |grid| coverage(grid, tile.uv.0, tile.uv.1));
+    match found {
+        Coverage::Empty => return true,
+        Coverage::Mixed if splits > 0 => {}
+        _ => {
+            kept.push((tile, found));
+            return false;
+        }
+    }
+    let ((low, high), side) = (tile.uv, tile.uv.1 - tile.uv.0);
+    let middle = 0.5 * (low + high);
+    let (cut_max, cut_min, local_max, local_min) = if side.x >= side.y {
+        let (a, b) = (DVec2::new(middle.x, high.y), DVec2::new(middle.x, low.y));
+        (a, b, DVec2::new(0.5, 1.0), DVec2::new(0.5, 0.0))
+    } else {
+        let (a, b) = (DVec2::new(high.x, middle.y), DVec2::new(low.x, middle.y));
+        (a, b, DVec2::new(1.0, 0.5), DVec2::new(0.0, 0.5))
+    };
+    let before = kept.len();
+    let first = Tile { piece: tile.piece.restrict(DVec2::ZERO, local_max), uv: (low, cut_max) };
+    let second = Tile { piece: tile.piece.restrict(local_min, DVec2::ONE), uv: (cut_min, high) };
+    let freed =
+        split_by_trims(first, grid, splits - 1, kept) | split_by_trims(second, grid, splits - 1, kept);
+    if !freed {
+        kept.truncate(before);
+        kept.push((tile, found));
+    }
+    freed
 }
 
 /// Points of a piece dense enough to bound it for framing a view.

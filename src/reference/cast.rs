@@ -84,11 +84,9 @@ pub fn cast(scene: &PackedScene, view: &View, cell: &Cell, piece: &Piece, pixel:
         let (low, high) = (Vec2::from(cell.uv_min), Vec2::from(cell.uv_max));
         let part = 0.5 + 0.5 * root.x;
         let uv = (low * (1.0 - part) + high * part).clamp(Vec2::ZERO, Vec2::splat(BELOW_ONE));
-        let kept = if trim && face.flags & FaceHeader::TRIMMED != 0 {
-            classify(&grid_view(scene, face), uv.x, uv.y, &mut counters)
-        } else {
-            true
-        };
+        let trimmed = face.flags & FaceHeader::TRIMMED != 0 && cell.flags & Cell::WHOLE == 0;
+        let kept =
+            if trim && trimmed { classify(&grid_view(scene, face), uv.x, uv.y, &mut counters) } else { true };
         if kept || heat {
             let word = if heat {
                 pack_heat(root.normal, counters.evaluations as u32, kept, evaluations)

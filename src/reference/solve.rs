@@ -93,11 +93,12 @@ pub fn piece_seeds(piece: &Piece, conics: &Conics) -> Seeds {
 }
 
 fn root_normal(piece: &Piece, ds: Vec3, dt: Vec3, x: Vec2) -> Vec3 {
-    let n = ds.cross(dt);
+    // The view axes are left-handed (z forward), so the factors change places.
+    let n = dt.cross(ds);
     let c = 0.9 * x;
     let model_ds = piece.m10 + 2.0 * c.x * piece.m20 + c.y * piece.m11;
     let model_dt = piece.m01 + c.x * piece.m11 + 2.0 * c.y * piece.m02;
-    let model_n = model_ds.cross(model_dt);
+    let model_n = model_dt.cross(model_ds);
     let lost = n.dot(n) < 1e-8 * model_n.dot(model_n);
     let chosen = if lost { model_n } else { n };
     chosen / chosen.length().max(1e-37)

@@ -1,0 +1,111 @@
+//! How much of a parameter rectangle the trim loops keep: cells with nothing to show are never packed, and
+//! cells kept whole need no trimming.
+
+use glam::{DVec2, Vec2};
+
+use crate::kernel::trim::grid::layout::{CELL_REFINED, CELL_SHIFT, ENTRY_SHIFT};
+use crate::kernel::trim::record::{crossing, load};
+use crate::kernel::trim::{ParityGrid, TrimStructure};
+
+/// What trimming leaves of a rectangle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coverage {
+    /// Nothing.
+    Empty,
+    /// Everything.
+    Whole,
+    /// Something, as far as the grid tells.
+    Mixed,
+}
+
+/// Looks at the segments in the grid's cells under the rectangle `min..max` (normalised), which is
+/// widened by a little for the rounding of points on its border.
+pub fn coverage(grid: &ParityGrid, min: DVec2, max: DVec2) -> Coverage {
+    let header = &grid.header;
+    if header.columns == 0 || header.rows == 0 {
+        return Coverage::Empty;
+    }
+    const MARGIN: f64 = 1e-5;
+    let rect = Rect { min: (min - MARGIN).as_vec2(), max: (max + MARGIN).as_vec2() };
+    let range = |low: f32, high: f32, count: u32| {
+        let at = |x: f32| ((x * count as f32).max(0.0) as u32).min(count - 1);
+        at(low)..=at(high)
+    };
+    for row in range(rect.min.y, rect.max.y, header.rows) {
+        for column in range(rect.min.x, rect.max.x, header.columns) {
+            let index = (header.cell_base + row * header.columns + column) as usize;
+            let (Some(cell), Some(next)) = (grid.cells.get(index), grid.cells.get(index + 1)) else {
+                return Coverage::Mixed;
+            };
+            let list = (cell >> CELL_SHIFT) as usize..(next >> CELL_SHIFT) as usize;
+            let Some(entries) = grid.entries.get(list) else { return Coverage::Mixed };
+            if cell & CELL_REFINED != 0 || entries.iter().any(|e| passes(grid, *e, &rect)) {
+                return Coverage::Mixed;
+            }
+        }
+    }
+    let middle = (0.5 * (min + max)).as_vec2();
+    if grid.classify(middle) { Coverage::Whole } else { Coverage::Empty }
+}
+
+struct Rect {
+    min: Vec2,
+    max: Vec2,
+}
+
+/// Whether a segment touches the rectangle. It is bi-monotone, so over the heights it shares with the
+/// rectangle its u runs between its values at the two ends.
+fn passes(grid: &ParityGrid, entry: u32, rect: &Rect) -> bool {
+    let address = (grid.header.data_base + (entry >> ENTRY_SHIFT)) as usize;
+    let ends = load(&grid.data, address);
+    let (low, high) = (rect.min.y.max(ends[1]), rect.max.y.min(ends[3]));
+    if low > high || ends[0].max(ends[2]) < rect.min.x || ends[0].min(ends[2]) > rect.max.x {
+        return false;
+    }
+    if ends[1] == ends[3] {
+        return true;
+    }
+    // Crossings are asked for below the upper end only.
+    let high = high.min(ends[3].next_down());
+    let low = low.min(high);
+    let (least_at, most_at) = if ends[0] <= ends[2] { (low, high) } else { (high, low) };
+    let right_of = |u: f32, v: f32| crossing(&grid.data, address, ends, entry, u, v, &mut ());
+    !right_of(rect.max.x, least_at) && right_of(rect.min.x, most_at)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::trim::grid::GridOptions;
+    use crate::kernel::trim::pack::PackedSegments;
+    use crate::kernel::trim::{PieceList, SegmentSet};
+
+    #[test]
+    fn coverage_agrees_with_points() {
+        let mut pieces = PieceList::default();
+        let corners = [(0.2, 0.3), (0.8, 0.25), (0.7, 0.9), (0.4, 0.6)].map(|(u, v)| DVec2::new(u, v));
+        for i in 0..4 {
+            pieces.push(&[corners[i], corners[(i + 1) % 4]], &[1.0, 1.0], None);
+        }
+        pieces.close_chain();
+        let set = SegmentSet::new(&pieces);
+        let packed = PackedSegments::new(&pieces, &set).expect("few segments");
+        let grid = ParityGrid::new(&set, &packed, &GridOptions::default());
+        let mut seen = [0; 3];
+        for k in 0..400 {
+            let min = DVec2::new((k % 20) as f64, (k / 20) as f64) / 20.0;
+            let found = coverage(&grid, min, min + 0.05);
+            let inside = |i: i32| {
+                let p = min.as_vec2() + 0.05 * Vec2::new((i % 5) as f32 + 0.5, (i / 5) as f32 + 0.5) / 5.0;
+                grid.classify(p)
+            };
+            match found {
+                Coverage::Empty => assert!(!(0..25).any(inside)),
+                Coverage::Whole => assert!((0..25).all(inside)),
+                Coverage::Mixed => {}
+            }
+            seen[found as usize] += 1;
+        }
+        assert!(seen[0] > 150 && seen[1] > 40, "{seen:?}");
+    }
+}
