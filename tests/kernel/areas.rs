@@ -105,3 +105,25 @@ fn empty_loops_have_no_area() {
     let beside = circle(DVec2::new(5.0, 0.5), 0.3);
     assert_eq!(measure(&surface, &[beside]).value, 0.0);
 }
+
+#[test]
+fn a_plate_with_a_thousand_holes_in_strips() {
+    let (surface, slant) = plane(DVec2::ZERO, DVec2::splat(34.0));
+    let mut loops = vec![rectangle(DVec2::splat(0.5), DVec2::splat(33.5))];
+    // Rows shifted against each other, so that holes have many heights.
+    for k in 0..1024u32 {
+        let (i, j) = (f64::from(k / 32), f64::from(k % 32));
+        loops.push(circle(DVec2::new(1.0 + i, 1.0 + j + 0.013 * i), 0.3));
+    }
+    assert_area(measure(&surface, &loops), slant * (33.0 * 33.0 - 1024.0 * 0.09 * PI));
+    // A comb: one loop that leaves and enters every strip.
+    let mut comb = vec![DVec2::new(1.0, 1.0)];
+    for k in 0..200 {
+        let v = 1.0 + 0.15 * f64::from(k);
+        comb.extend([DVec2::new(33.0, v + 0.01), DVec2::new(33.0, v + 0.06), DVec2::new(1.0, v + 0.1)]);
+    }
+    comb.push(DVec2::new(0.7, 1.0 + 0.15 * 200.0));
+    let next = comb.iter().cycle().skip(1);
+    let doubled: f64 = comb.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum();
+    assert_area(measure(&surface, &[polygon(&comb)]), slant * 0.5 * doubled.abs());
+}

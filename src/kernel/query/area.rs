@@ -25,6 +25,8 @@ pub struct Area {
 
 /// Relative accuracy that [`trimmed_area`] works to; smooth faces end far below it.
 const ACCURACY: f64 = 1e-10;
+/// A boundary of n edges is measured in sqrt(n) / EDGES_ACROSS strips.
+const EDGES_ACROSS: f64 = 6.0;
 /// Halvings of a panel.
 const DEPTH: u32 = 14;
 /// Mean v-speeds below this part of an edge's mean count as turning.
@@ -36,8 +38,17 @@ pub fn face_area(face: &Face) -> Area {
 }
 
 /// Area of the part of `sheet` inside `boundary`, or of all of it when the boundary has no edges.
+///
+/// Boundaries of many edges are measured in strips of u, so that a row crosses few of them.
 pub fn trimmed_area(sheet: &Sheet, boundary: &Boundary) -> Area {
-    let panels = panels(sheet, boundary);
+    let (Some(&left), Some(&right)) = (sheet.u_lines().first(), sheet.u_lines().last()) else {
+        return Area::default();
+    };
+    let count = ((boundary.edges().len() as f64).sqrt() / EDGES_ACROSS).max(1.0) as usize;
+    let at = |k: usize| if k == count { right } else { left + (right - left) * (k as f64 / count as f64) };
+    let strips: Vec<Strip> = (0..count).map(|k| Strip::new(boundary, at(k), at(k + 1), count > 1)).collect();
+    let whole = boundary.edges().is_empty();
+    let panels: Vec<Panel> = strips.iter().flat_map(|strip| panels(sheet, strip, whole)).collect();
     let rough: f64 = panels.iter().map(|p| p.integrate(sheet, 1, (1, 1))).sum();
     let mut area = Area::default();
     for panel in &panels {
@@ -48,7 +59,21 @@ pub fn trimmed_area(sheet: &Sheet, boundary: &Boundary) -> Area {
     area
 }
 
-/// A strip between two heights that edges cross from bottom to top.
+/// A strip of u and the boundary seen from it.
+struct Strip {
+    from: f64,
+    to: f64,
+    boundary: Boundary,
+}
+
+impl Strip {
+    fn new(boundary: &Boundary, from: f64, to: f64, cut: bool) -> Self {
+        let boundary = if cut { boundary.strip(from, to) } else { boundary.clone() };
+        Self { from, to, boundary }
+    }
+}
+
+/// The part of a strip between two heights that edges cross from bottom to top.
 struct Panel<'b> {
     low: f64,
     high: f64,
@@ -57,17 +82,20 @@ struct Panel<'b> {
     /// Whether some edge turns at the lower and at the upper end.
     turning: (bool, bool),
     edges: Vec<&'b Edge>,
+    strip: &'b Strip,
 }
 
-fn panels<'b>(sheet: &Sheet, boundary: &'b Boundary) -> Vec<Panel<'b>> {
+/// The panels of a strip; `whole` when nothing bounds the sheet.
+fn panels<'b>(sheet: &Sheet, strip: &'b Strip, whole: bool) -> Vec<Panel<'b>> {
     let lines = sheet.v_lines();
     let (Some(&bottom), Some(&top)) = (lines.first(), lines.last()) else { return Vec::new() };
-    let whole = boundary.edges().is_empty();
+    let boundary = &strip.boundary;
     let mut edges: Vec<(&Edge, (f64, f64))> =
         boundary.edges().iter().filter(|e| e.high > e.low).map(|e| (e, e.end_speeds())).collect();
     edges.sort_by(|a, b| a.0.low.total_cmp(&b.0.low));
     let mut heights: Vec<f64> = edges.iter().flat_map(|(e, _)| [e.low, e.high]).collect();
     heights.extend(lines);
+    heights.extend(edges.iter().flat_map(|(e, _)| [e.v_at(strip.from), e.v_at(strip.to)]).flatten());
     heights.retain(|v| *v >= bottom && *v <= top);
     heights.sort_unstable_by(f64::total_cmp);
     heights.dedup();
@@ -95,6 +123,7 @@ fn panels<'b>(sheet: &Sheet, boundary: &'b Boundary) -> Vec<Panel<'b>> {
             cell: interval(lines, 0.5 * (low + high)),
             turning: (at_low, at_high),
             edges: active.iter().map(|(e, _)| *e).collect(),
+            strip,
         });
     }
     panels
@@ -118,8 +147,7 @@ impl Panel<'_> {
             return Area { value: before, error };
         }
         let middle = 0.5 * (self.low + self.high);
-        let part =
-            |low, high, turning| Panel { low, high, turning, edges: self.edges.clone(), cell: self.cell };
+        let part = |low, high, turning| Panel { low, high, turning, edges: self.edges.clone(), ..*self };
         let lower = part(self.low, middle, (self.turning.0, false)).measure(sheet, tolerance, depth - 1);
         let upper = part(middle, self.high, (false, self.turning.1)).measure(sheet, tolerance, depth - 1);
         Area { value: lower.value + upper.value, error: lower.error + upper.error }
@@ -148,10 +176,10 @@ impl Panel<'_> {
     fn row(&self, sheet: &Sheet, v: f64) -> Row {
         let mut crossings: Vec<f64> = self.edges.iter().map(|e| e.u_at(v)).collect();
         if self.edges.is_empty() {
-            crossings.extend([sheet.u_lines()[0], sheet.u_lines()[sheet.u_lines().len() - 1]]);
+            crossings.extend([self.strip.from, self.strip.to]);
         }
         crossings.sort_unstable_by(f64::total_cmp);
-        Row::new(sheet, self.cell, v, &crossings)
+        Row::new(sheet, self.cell, v, (self.strip.from, self.strip.to), &crossings)
     }
 
     fn integrate(&self, sheet: &Sheet, order: usize, across: (usize, usize)) -> f64 {

@@ -6,7 +6,7 @@
 //! the map is nearly the identity, as Bezier clipping does; Nishita et al. 1990) or the map is proved to
 //! be one-to-one on the box (derivative control vectors within 1 of the identity in the maximum norm), when
 //! Newton's method finds the only zero. What is left is tangent (or singular, as at poles): boxes whose hull
-//! is 0 up to rounding, and boxes of [`TANGENT_SIZE`], in which the smallest value decides.
+//! is 0 up to rounding, and boxes of `TANGENT_SIZE`, in which the smallest value decides.
 
 use glam::{DMat2, DVec2, DVec3};
 

@@ -24,13 +24,14 @@ struct IsoCurve {
 }
 
 impl Row {
-    /// The row at height `v`, in patch row `cell`; sorted `crossings` pair up to intervals inside.
-    pub fn new(sheet: &Sheet, cell: usize, v: f64, crossings: &[f64]) -> Self {
+    /// The row at height `v`, in patch row `cell`, within `limits` of u; sorted `crossings` pair up to
+    /// intervals inside.
+    pub fn new(sheet: &Sheet, cell: usize, v: f64, limits: (f64, f64), crossings: &[f64]) -> Self {
         let lines = sheet.u_lines();
         let mut row = Self::default();
         let mut last = None;
         for pair in crossings.chunks_exact(2) {
-            let (from, to) = (pair[0].max(lines[0]), pair[1].min(lines[lines.len() - 1]));
+            let (from, to) = (pair[0].max(limits.0), pair[1].min(limits.1));
             if !(from < to) {
                 continue;
             }
