@@ -32,8 +32,10 @@ pub struct Pointer {
     pub position: Option<Vec2>,
     /// Whether the viewport gets it.
     pub in_viewport: bool,
-    /// Whether a text field or dialog takes the keyboard.
+    /// Whether a text field takes the keyboard.
     pub keyboard_taken: bool,
+    /// Whether a sheet above everything is open: only commands that close it are served.
+    pub sheet_open: bool,
 }
 
 impl Viewport {

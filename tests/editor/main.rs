@@ -1,1 +1,6 @@
-//! Headless and windowed tests of the editor.
+//! The editor without a window: camera mathematics, the command table, and a headless world.
+
+mod camera;
+mod commands;
+mod settings;
+mod world;

@@ -7,7 +7,7 @@
 
 use glam::{DQuat, DVec2, DVec3};
 
-use crate::kernel::view::{Camera, Projection};
+use crate::kernel::view::{Bounds, Camera, Projection};
 
 /// Opening angle of perspective views, radians (35 degrees: little distortion, as CAD systems use).
 pub const FIELD_OF_VIEW: f64 = 35.0 * std::f64::consts::PI / 180.0;
@@ -113,6 +113,64 @@ pub fn toggle_projection(camera: &Camera, radius: f64) -> Camera {
         }
     }
     toggled
+}
+
+/// A camera of the same kind that looks along `direction` and shows all `boxes` as large as they fit in a
+/// window of `aspect`, with a margin of 6 %. The same camera as [`Camera::fit`] for one box that is seen
+/// square on, and closer wherever the boxes leave the corners of their common box empty.
+pub fn fit_boxes(
+    boxes: &[Bounds],
+    direction: DVec3,
+    up: DVec3,
+    projection: Projection,
+    aspect: f64,
+) -> Option<Camera> {
+    let all = boxes.iter().fold(Bounds::EMPTY, |a, b| a.union(*b));
+    if all.is_empty() || !all.diagonal().is_finite() {
+        return None;
+    }
+    let centre = all.centre();
+    let look = Camera { eye: centre - direction, target: centre, up, projection };
+    let (right, up_axis, back) = look.axes();
+    const MARGIN: f64 = 1.06;
+    let tan_y = match projection {
+        Projection::Perspective { fov_y } => (0.5 * fov_y).tan() / MARGIN,
+        Projection::Orthographic { .. } => 0.0,
+    };
+    let tan_x = tan_y * aspect;
+    // Extremes over all corners of x + z tan and -x + z tan, the same for y, and of z.
+    let mut extremes = [f64::NEG_INFINITY; 6];
+    for b in boxes.iter().filter(|b| !b.is_empty()) {
+        for k in 0..8 {
+            let pick = |bit: i32, axis: usize| if k & bit == 0 { b.min[axis] } else { b.max[axis] };
+            let d = DVec3::new(pick(1, 0), pick(2, 1), pick(4, 2)) - centre;
+            let (x, y, z) = (d.dot(right), d.dot(up_axis), d.dot(back));
+            let values = [x + z * tan_x, -x + z * tan_x, y + z * tan_y, -y + z * tan_y, z, -z];
+            for (extreme, value) in extremes.iter_mut().zip(values) {
+                *extreme = extreme.max(value);
+            }
+        }
+    }
+    let [x_high, x_low, y_high, y_low, near, far] = extremes;
+    let target = centre
+        + right * (0.5 * (x_high - x_low))
+        + up_axis * (0.5 * (y_high - y_low))
+        + back * (0.5 * (near - far));
+    let depth = (near + far).max(1e-9 * all.diagonal());
+    let least = 1e-6 * all.diagonal().max(1e-9);
+    Some(match projection {
+        Projection::Perspective { .. } => {
+            // Distance of the eye from the centre, along back: wide enough for both directions.
+            let distance = (0.5 * (x_high + x_low) / tan_x).max(0.5 * (y_high + y_low) / tan_y);
+            let from_target = (distance - 0.5 * (near - far)).max(0.51 * depth).max(least);
+            Camera { eye: target + back * from_target, target, up, projection }
+        }
+        Projection::Orthographic { .. } => {
+            let height = MARGIN * (y_high + y_low).max((x_high + x_low) / aspect).max(least);
+            let eye = target + back * (depth + all.diagonal());
+            Camera { eye, target, up, projection: Projection::Orthographic { height } }
+        }
+    })
 }
 
 /// The camera turned to look along `direction` with `up` upwards; target and size of view stay.

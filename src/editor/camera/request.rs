@@ -7,12 +7,12 @@ use glam::DVec3;
 use super::flight::Flight;
 use super::{ViewCamera, motion};
 use crate::editor::derive::SceneBounds;
-use crate::editor::object::DerivedFace;
+use crate::editor::object::{DerivedFace, Shown};
 use crate::editor::selection::Selection;
 use crate::editor::settings::Settings;
 use crate::editor::tools::{Action, CommandRequest};
 use crate::editor::viewport::Viewport;
-use crate::kernel::view::{Bounds, Camera as ViewPoint, Projection, StandardView};
+use crate::kernel::view::{Bounds, Projection, StandardView};
 
 /// Asks for another view.
 #[derive(Message, Debug, Clone, Copy, PartialEq)]
@@ -65,30 +65,36 @@ pub(super) fn serve(
     mut settings: ResMut<Settings>,
     bounds: Res<SceneBounds>,
     viewport: Res<Viewport>,
+    faces: Query<(&DerivedFace, &Shown)>,
 ) {
     for request in requests.read() {
+        let all = || -> Vec<Bounds> {
+            let shown: Vec<Bounds> = faces.iter().filter(|(_, s)| s.0).map(|(d, _)| d.0.bounds).collect();
+            if shown.is_empty() { vec![bounds.to_fit()] } else { shown }
+        };
         let from = camera.destination();
         let (_, up, back) = from.axes();
         let aspect = viewport.aspect();
-        let fit =
-            |bounds: &Bounds, direction, up| ViewPoint::fit(bounds, direction, up, from.projection, aspect);
+        let fit = |boxes: &[Bounds], direction, up| {
+            motion::fit_boxes(boxes, direction, up, from.projection, aspect).unwrap_or(from)
+        };
         let to = match request {
-            CameraRequest::Fit => fit(&bounds.to_fit(), -back, up),
+            CameraRequest::Fit => fit(&all(), -back, up),
             CameraRequest::FitBounds(bounds) if bounds.is_empty() => continue,
-            CameraRequest::FitBounds(bounds) => fit(bounds, -back, up),
+            CameraRequest::FitBounds(bounds) => fit(&[*bounds], -back, up),
             CameraRequest::FitNew => {
                 let (direction, up) = StandardView::Iso.directions();
                 let projection = match settings.perspective {
                     true => Projection::Perspective { fov_y: motion::FIELD_OF_VIEW },
                     false => Projection::Orthographic { height: 1.0 },
                 };
-                let now = ViewPoint::fit(&bounds.to_fit(), direction, up, projection, aspect);
+                let now = motion::fit_boxes(&all(), direction, up, projection, aspect).unwrap_or(from);
                 *camera = ViewCamera { now, flight: None };
                 continue;
             }
             CameraRequest::Standard(view) => {
                 let (direction, up) = view.directions();
-                fit(&bounds.to_fit(), direction, up)
+                fit(&all(), direction, up)
             }
             CameraRequest::Look { direction, up } => motion::look_along(&from, *direction, *up),
             CameraRequest::ToggleProjection => {

@@ -1,8 +1,9 @@
 //! What the editor keeps of a face beside its record.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::kernel::face::Face;
+use crate::kernel::query;
 use crate::kernel::view::Bounds;
 use crate::scene::records::FaceRecord;
 
@@ -13,26 +14,61 @@ pub struct Derived {
     pub face: Option<Arc<Face>>,
     /// Box around the face.
     pub bounds: Bounds,
-    /// Trimmed area, model units squared.
-    pub area: Option<f64>,
+    /// What takes longer to work out; there some time after the face is shown.
+    measures: OnceLock<Measures>,
     /// Number of trim curves.
     pub curves: usize,
     /// Why the face cannot be drawn, if it cannot.
     pub failure: Option<String>,
 }
 
+/// Exact measures of the trimmed face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measures {
+    /// Area, model units squared.
+    pub area: f64,
+    /// Box around what is left after trimming.
+    pub bounds: Bounds,
+}
+
 impl Derived {
+    /// The measures, once they are worked out.
+    pub fn measures(&self) -> Option<&Measures> {
+        self.measures.get()
+    }
+
+    /// The tightest box known.
+    pub fn best_bounds(&self) -> Bounds {
+        self.measures().map_or(self.bounds, |m| m.bounds)
+    }
+
+    /// Works out the measures, if that was not done before. May take a while.
+    pub fn measure(&self) {
+        if let Some(face) = &self.face {
+            self.measures.get_or_init(|| Measures {
+                area: query::face_area(face).value,
+                bounds: query::face_bounds(face),
+            });
+        }
+    }
+
     /// Derives everything from the record. Never fails: what went wrong is in [`Self::failure`].
     pub fn of(record: &FaceRecord) -> Self {
         let curves = record.loops.iter().map(|l| l.curves.len()).sum();
         match Face::derive(record) {
             Ok(face) => {
                 let bounds = face.bounds;
-                Self { face: Some(Arc::new(face)), bounds, area: None, curves, failure: None }
+                Self { face: Some(Arc::new(face)), bounds, measures: OnceLock::new(), curves, failure: None }
             }
             Err(error) => {
                 let bounds = Bounds::of(record.surface.points().iter().copied());
-                Self { face: None, bounds, area: None, curves, failure: Some(error.to_string()) }
+                Self {
+                    face: None,
+                    bounds,
+                    measures: OnceLock::new(),
+                    curves,
+                    failure: Some(error.to_string()),
+                }
             }
         }
     }

@@ -1,17 +1,18 @@
 //! From records to derived data: patches, trimming structure, area, bounds.
 //!
 //! Wiring: `Derive` works on faces whose record changed and on nothing else; the box around all that is
-//! shown follows in [`SceneBounds`]. Imports derive on their own thread before the faces are spawned.
+//! shown follows in [`SceneBounds`], and a thread works out areas afterwards. Imports derive on their own thread before the faces are spawned.
 
 mod bounds;
 mod derived;
+mod measure;
 
 use std::sync::Arc;
 
 use bevy::prelude::*;
 
 pub use bounds::SceneBounds;
-pub use derived::Derived;
+pub use derived::{Derived, Measures};
 
 use super::EditorSystems;
 use super::object::{AuthoredFace, DerivedFace};
@@ -21,8 +22,10 @@ pub struct DerivePlugin;
 
 impl Plugin for DerivePlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<SceneBounds>()
-            .add_systems(Update, (derive_changed, bounds::update).chain().in_set(EditorSystems::Derive));
+        app.init_resource::<SceneBounds>().add_systems(
+            Update,
+            (derive_changed, bounds::update, measure::start).chain().in_set(EditorSystems::Derive),
+        );
     }
 }
 

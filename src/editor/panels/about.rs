@@ -10,7 +10,7 @@ pub(super) fn show(ctx: &Context, palette: &Palette, open: &mut bool) {
         return;
     }
     let backdrop = Color32::from_black_alpha(if palette.light { 60 } else { 120 });
-    let response = Modal::new(Id::new("about")).backdrop_color(backdrop).show(ctx, |ui| {
+    let response = Modal::new(Id::new("about")).backdrop_color(backdrop).frame(super::sheet_frame(palette)).show(ctx, |ui| {
         ui.set_width(380.0);
         ui.label(RichText::new("Hairline").size(size::TITLE).color(palette.accent));
         ui.label(RichText::new(concat!("Version ", env!("CARGO_PKG_VERSION"))).color(palette.weak));

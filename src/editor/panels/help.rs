@@ -11,33 +11,39 @@ pub(super) fn show(ctx: &Context, palette: &Palette, open: &mut bool) {
         return;
     }
     let backdrop = Color32::from_black_alpha(if palette.light { 60 } else { 120 });
-    let response = Modal::new(Id::new("help")).backdrop_color(backdrop).show(ctx, |ui| {
-        ui.set_width((ctx.viewport_rect().width() - 120.0).min(860.0));
-        ui.label(RichText::new("Keys and mouse").size(size::TITLE).color(palette.strong));
-        ui.add_space(8.0);
-        let height = ctx.viewport_rect().height() - 160.0;
-        egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
-            ui.columns(3, |columns| {
-                for (column, menus) in columns.iter_mut().zip([
-                    &[Menu::File, Menu::Edit][..],
-                    &[Menu::View][..],
-                    &[Menu::Display, Menu::Help][..],
-                ]) {
-                    for menu in menus {
-                        group(column, palette, *menu);
-                    }
-                }
-            });
-            ui.add_space(4.0);
-            title(ui, palette, "Mouse");
-            ui.columns(2, |columns| {
-                let half = MOUSE_HELP.len().div_ceil(2);
-                for (i, (what, does)) in MOUSE_HELP.iter().enumerate() {
-                    mouse(&mut columns[usize::from(i >= half)], palette, what, does);
-                }
-            });
+    let response = Modal::new(Id::new("help"))
+        .backdrop_color(backdrop)
+        .frame(super::sheet_frame(palette))
+        .show(ctx, |ui| {
+            ui.set_width((ctx.viewport_rect().width() - 120.0).min(860.0));
+            ui.label(RichText::new("Keys and mouse").size(size::TITLE).color(palette.strong));
+            ui.add_space(8.0);
+            let height = ctx.viewport_rect().height() - 160.0;
+            egui::ScrollArea::vertical().max_height(height).min_scrolled_height(height.min(560.0)).show(
+                ui,
+                |ui| {
+                    ui.columns(3, |columns| {
+                        for (column, menus) in columns.iter_mut().zip([
+                            &[Menu::File, Menu::Edit][..],
+                            &[Menu::View][..],
+                            &[Menu::Display, Menu::Help][..],
+                        ]) {
+                            for menu in menus {
+                                group(column, palette, *menu);
+                            }
+                        }
+                    });
+                    ui.add_space(4.0);
+                    title(ui, palette, "Mouse");
+                    ui.columns(2, |columns| {
+                        let half = MOUSE_HELP.len().div_ceil(2);
+                        for (i, (what, does)) in MOUSE_HELP.iter().enumerate() {
+                            mouse(&mut columns[usize::from(i >= half)], palette, what, does);
+                        }
+                    });
+                },
+            );
         });
-    });
     if response.should_close() {
         *open = false;
     }

@@ -21,7 +21,7 @@ mod view_cube;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy::window::{PrimaryWindow, RequestRedraw};
-use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
+use bevy_egui::{EguiContexts, EguiPostUpdateSet, EguiPrimaryContextPass, EguiRenderOutput, egui};
 
 pub use notice::{Notice, Notices};
 
@@ -46,7 +46,13 @@ impl Plugin for PanelsPlugin {
             .init_resource::<Palette>()
             .init_resource::<PanelState>()
             .add_systems(Update, (sheets, notice::expire).in_set(super::EditorSystems::Present))
-            .add_systems(EguiPrimaryContextPass, (theme::install, show).chain());
+            .add_systems(EguiPrimaryContextPass, (theme::install, show).chain())
+            .add_systems(
+                PostUpdate,
+                redraw_for_new_glyphs
+                    .after(EguiPostUpdateSet::ProcessOutput)
+                    .before(EguiPostUpdateSet::PostProcessOutput),
+            );
     }
 }
 
@@ -169,5 +175,21 @@ fn set_viewport(viewport: &mut ResMut<Viewport>, rect: egui::Rect, scale_factor:
     if viewport.set_if_neq(now) {
         // The picture follows in the next frame.
         writes.redraw.write(RequestRedraw);
+    }
+}
+
+/// The frame of sheets above everything.
+fn sheet_frame(palette: &Palette) -> egui::Frame {
+    egui::Frame::new()
+        .fill(palette.raised)
+        .stroke(egui::Stroke::new(1.0, palette.line))
+        .corner_radius(10)
+        .inner_margin(egui::Margin::symmetric(24, 20))
+}
+
+/// Glyphs drawn for the first time reach the screen one frame late: draw that frame.
+fn redraw_for_new_glyphs(outputs: Query<&EguiRenderOutput>, mut redraw: MessageWriter<RequestRedraw>) {
+    if outputs.iter().any(|output| !output.textures_delta.set.is_empty()) {
+        redraw.write(RequestRedraw);
     }
 }

@@ -1,12 +1,15 @@
 //! The properties of what is selected.
 
 use bevy::prelude::Entity;
-use bevy_egui::egui::{self, CornerRadius, Frame, Grid, Label, Margin, RichText, Sense, Ui, vec2};
+use bevy_egui::egui::{
+    self, Align2, CornerRadius, FontId, Frame, Grid, Label, Margin, RichText, Sense, Ui, vec2,
+};
 
 use super::Reads;
 use super::format::{coordinate, count, number, plural};
 use super::tree::srgb;
 use crate::editor::selection::Selection;
+use crate::editor::theme::size as text;
 use crate::kernel::nurbs::KnotVector;
 use crate::kernel::view::Bounds;
 
@@ -45,32 +48,36 @@ fn rows(ui: &mut Ui, id: &str, reads: &Reads, rows: &[(&str, String)]) {
     });
 }
 
-fn bounds_table(ui: &mut Ui, id: &str, reads: &Reads, bounds: Bounds) {
+fn bounds_table(ui: &mut Ui, reads: &Reads, bounds: Bounds) {
     if bounds.is_empty() {
         return;
     }
     section(ui, reads, "Bounding box");
     let size = bounds.max - bounds.min;
-    Grid::new(id).num_columns(4).min_col_width(20.0).spacing(vec2(12.0, 5.0)).show(ui, |ui| {
-        for head in ["", "min", "max", "size"] {
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                ui.label(RichText::new(head).small().color(reads.palette.weak));
-            });
+    let cell = ((ui.available_width() - 18.0) / 3.0).clamp(40.0, 110.0);
+    let line = |ui: &mut Ui, name: &str, cells: [String; 3], head: bool| {
+        let (rect, _) = ui.allocate_exact_size(vec2(18.0 + 3.0 * cell, 20.0), Sense::hover());
+        let (font, color) = match head {
+            true => (FontId::proportional(text::SMALL), reads.palette.weak),
+            false => (FontId::proportional(text::BODY), reads.palette.strong),
+        };
+        let painter = ui.painter();
+        painter.text(
+            rect.left_center(),
+            Align2::LEFT_CENTER,
+            name,
+            FontId::proportional(text::BODY),
+            reads.palette.weak,
+        );
+        for (k, value) in cells.iter().enumerate() {
+            let right = rect.left_center() + vec2(18.0 + cell * (k + 1) as f32 - 4.0, 0.0);
+            painter.text(right, Align2::RIGHT_CENTER, value, font.clone(), color);
         }
-        ui.end_row();
-        for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-            ui.label(RichText::new(name).color(reads.palette.weak));
-            for value in [bounds.min[axis], bounds.max[axis], size[axis]] {
-                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                    ui.add(
-                        Label::new(RichText::new(coordinate(value)).color(reads.palette.strong))
-                            .selectable(true),
-                    );
-                });
-            }
-            ui.end_row();
-        }
-    });
+    };
+    line(ui, "", ["min", "max", "size"].map(str::to_owned), true);
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        line(ui, name, [bounds.min[axis], bounds.max[axis], size[axis]].map(coordinate), false);
+    }
 }
 
 fn scene(ui: &mut Ui, reads: &Reads) {
@@ -85,7 +92,7 @@ fn scene(ui: &mut Ui, reads: &Reads) {
     for (authored, _, derived) in reads.faces.iter_many(&all) {
         loops += authored.record.loops.len();
         curves += derived.map_or(0, |d| d.0.curves);
-        area = area.zip(derived.and_then(|d| d.0.area)).map(|(a, b)| a + b);
+        area = area.zip(derived.and_then(|d| d.0.measures()).map(|m| m.area)).map(|(a, b)| a + b);
     }
     for (index, entry) in reads.scene.models.iter().enumerate() {
         let Ok(model) = reads.models.get(entry.entity) else { continue };
@@ -114,7 +121,9 @@ fn scene(ui: &mut Ui, reads: &Reads) {
             ("Area", area),
         ],
     );
-    bounds_table(ui, "scene bounds", reads, reads.bounds.all);
+    let bounds =
+        reads.faces.iter().filter_map(|(.., d)| d).fold(Bounds::EMPTY, |b, d| b.union(d.0.best_bounds()));
+    bounds_table(ui, reads, bounds);
 }
 
 /// The unit, if all models have the same.
@@ -192,14 +201,17 @@ fn single(ui: &mut Ui, reads: &Reads, face: Entity) {
         list.push(("Rational", format!("{} of {}", count(rational), count(curves))));
     }
     if let Some(derived) = derived {
-        list.push(("Area", derived.0.area.map_or("–".into(), |a| format!("{} {unit}²", number(a)))));
+        list.push((
+            "Area",
+            derived.0.measures().map_or("–".into(), |m| format!("{} {unit}²", number(m.area))),
+        ));
         if let Some(failure) = &derived.0.failure {
             list.push(("Not drawn", failure.clone()));
         }
     }
     rows(ui, "trimming", reads, &list);
     if let Some(derived) = derived {
-        bounds_table(ui, "face bounds", reads, derived.0.bounds);
+        bounds_table(ui, reads, derived.0.best_bounds());
     }
 }
 
@@ -222,11 +234,11 @@ fn several(ui: &mut Ui, reads: &Reads, faces: &[Entity]) {
     for (authored, _, derived) in reads.faces.iter_many(faces) {
         loops += authored.record.loops.len();
         curves += derived.map_or(0, |d| d.0.curves);
-        area = area.zip(derived.and_then(|d| d.0.area)).map(|(a, b)| a + b);
-        bounds = derived.map_or(bounds, |d| bounds.union(d.0.bounds));
+        area = area.zip(derived.and_then(|d| d.0.measures()).map(|m| m.area)).map(|(a, b)| a + b);
+        bounds = derived.map_or(bounds, |d| bounds.union(d.0.best_bounds()));
     }
     section(ui, reads, "Selection");
     let area = area.map_or("–".into(), |a| format!("{} {}²", number(a), unit_of_all(reads)));
     rows(ui, "several", reads, &[("Loops", count(loops)), ("Trim curves", count(curves)), ("Area", area)]);
-    bounds_table(ui, "selection bounds", reads, bounds);
+    bounds_table(ui, reads, bounds);
 }

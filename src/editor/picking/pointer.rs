@@ -20,7 +20,8 @@ pub(super) fn route(
     let mut now = *pointer;
     now.position = window.cursor_position();
     let ctx = contexts.ctx_mut().ok();
-    now.keyboard_taken = ctx.as_ref().is_some_and(|ctx| ctx.egui_wants_keyboard_input());
+    now.keyboard_taken = ctx.as_ref().is_some_and(|ctx| ctx.text_edit_focused());
+    now.sheet_open = ctx.as_ref().is_some_and(|ctx| ctx.memory(|m| m.top_modal_layer().is_some()));
     let held_before = buttons.get_pressed().any(|b| !buttons.just_pressed(*b));
     if !held_before {
         now.in_viewport = now.position.is_some_and(|position| {

@@ -101,6 +101,9 @@ pub(super) fn read_cast_time(
     let mut figures = figures.lock();
     time.ms = Some(measurement.value as f32);
     time.scale = figures.resolution;
+    // Frames that cast nothing are measured too, as next to nothing.
     time.fresh = measurement.value > 0.05;
-    figures.gpu_ms = time.ms;
+    if time.fresh {
+        figures.gpu_ms = time.ms;
+    }
 }

@@ -128,13 +128,15 @@ pub(super) fn draw(
         [c[0], c[1], c[2], strength]
     };
     let light = frame.palette.light;
+    // No border in a coarse picture: it would be a bar of blocks.
+    let coarse = buffer[0] < size.x / 2;
     let uniform = Uniform {
         selected: color(frame.palette.accent, if light { 0.5 } else { 0.45 }),
         hovered: if light { [0.0, 0.12, 0.30, 0.14] } else { [1.0, 1.0, 1.0, 0.10] },
         min_px: min.as_vec2().to_array(),
         size_px: size.as_vec2().to_array(),
         buffer_px: [buffer[0] as f32, buffer[1] as f32],
-        border_px: 1.2 * frame.viewport.scale_factor,
+        border_px: if coarse { 0.0 } else { 1.2 * frame.viewport.scale_factor },
         padding: 0.0,
     };
     queue.write_buffer(&highlight.uniform, 0, bytemuck::bytes_of(&uniform));

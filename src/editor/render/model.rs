@@ -128,6 +128,8 @@ pub(super) fn draw(
     pass.shade = Some(shade);
 
     let edges = EdgeStyle { visible: shade.edges, width_px: frame.viewport.scale_factor };
+    // Edges are a pixel wide: in a coarse picture they would be bars.
+    let edges_at = |scale: f32| EdgeStyle { visible: edges.visible && scale > 0.45, ..edges };
     let recorder = ctx.diagnostic_recorder();
     let span = recorder.as_deref().map(|r| r.time_span(ctx.command_encoder(), CAST_SPAN));
     match plan {
@@ -143,7 +145,14 @@ pub(super) fn draw(
                 mode: mode_of(mode),
             };
             renderer.cast(device, &queue, ctx.command_encoder(), &rays);
-            renderer.shade(device, &queue, ctx.command_encoder(), mode_of(mode), edges, sample == 0);
+            renderer.shade(
+                device,
+                &queue,
+                ctx.command_encoder(),
+                mode_of(mode),
+                edges_at(scale),
+                sample == 0,
+            );
             pass.casts += 1;
         }
     }

@@ -3,7 +3,7 @@
 use bevy::input::keyboard::KeyboardInput;
 use bevy::prelude::*;
 
-use super::command::{COMMANDS, CommandRequest, Situation};
+use super::command::{Action, COMMANDS, Command, CommandRequest, Situation};
 use super::key::Modifiers;
 use crate::editor::files::Loading;
 use crate::editor::object::{Scene, Shown};
@@ -63,7 +63,9 @@ pub(super) fn press(
         let command = COMMANDS
             .iter()
             .find(|c| c.keys.iter().any(|k| k.matches(&press.logical_key, press.key_code, modifiers)));
-        if let Some(command) = command.filter(|c| (c.enabled)(&situation.0)) {
+        let served =
+            |c: &&Command| !pointer.sheet_open || matches!(c.action, Action::Shortcuts | Action::About);
+        if let Some(command) = command.filter(served).filter(|c| (c.enabled)(&situation.0)) {
             requests.write(CommandRequest(command.action));
         }
     }
