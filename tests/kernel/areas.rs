@@ -127,3 +127,23 @@ fn a_plate_with_a_thousand_holes_in_strips() {
     let doubled: f64 = comb.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum();
     assert_area(measure(&surface, &[polygon(&comb)]), slant * 0.5 * doubled.abs());
 }
+
+#[test]
+fn a_folded_surface_ends_with_an_honest_error() {
+    // Flat and folded: the area element has creases along curves inside the patch.
+    let mut patch = crate::zoo::Seed(21).patch((4, 4), false);
+    patch.points.iter_mut().for_each(|p| p.z = 0.0);
+    let patches = [patch.clone()];
+    let found = trimmed_area(&Sheet::new(&patches), &Boundary::default());
+    let n = 1500;
+    let middle = |k: usize| (k as f64 + 0.5) / f64::from(n as u32);
+    let sum: f64 = (0..n * n)
+        .map(|k| {
+            let at = patch.tangents(middle(k / n), middle(k % n));
+            at.du.cross(at.dv).length()
+        })
+        .sum();
+    let sum = sum / (n * n) as f64;
+    assert!((found.value - sum).abs() < 1e-4 * sum + found.error, "{found:?} {sum}");
+    assert!(found.error < 1e-2 * sum, "{found:?}");
+}

@@ -27,6 +27,9 @@ pub struct Area {
 const ACCURACY: f64 = 1e-10;
 /// A boundary of n edges is measured in sqrt(n) / EDGES_ACROSS strips.
 const EDGES_ACROSS: f64 = 6.0;
+/// Points of the surface looked at before panels are no longer halved: folded surfaces, whose area element has
+/// creases inside patches, do not converge.
+const EFFORT: usize = 5_000_000;
 /// Halvings of a panel.
 const DEPTH: u32 = 14;
 /// Mean v-speeds below this part of an edge's mean count as turning.
@@ -51,8 +54,9 @@ pub fn trimmed_area(sheet: &Sheet, boundary: &Boundary) -> Area {
     let panels: Vec<Panel> = strips.iter().flat_map(|strip| panels(sheet, strip, whole)).collect();
     let rough: f64 = panels.iter().map(|p| p.integrate(sheet, 1, (1, 1))).sum();
     let mut area = Area::default();
+    let mut effort = EFFORT;
     for panel in &panels {
-        let Area { value, error } = panel.measure(sheet, ACCURACY * rough, DEPTH);
+        let Area { value, error } = panel.measure(sheet, ACCURACY * rough, DEPTH, &mut effort);
         area.value += value;
         area.error += error;
     }
@@ -131,8 +135,10 @@ fn panels<'b>(sheet: &Sheet, strip: &'b Strip, whole: bool) -> Vec<Panel<'b>> {
 
 impl Panel<'_> {
     /// The panel's area to `tolerance`.
-    fn measure(&self, sheet: &Sheet, tolerance: f64, depth: u32) -> Area {
+    fn measure(&self, sheet: &Sheet, tolerance: f64, depth: u32, effort: &mut usize) -> Area {
         let across = self.rule_across(sheet, tolerance);
+        let nodes = ORDERS.iter().sum::<usize>() * ORDERS[across.0] * across.1;
+        *effort = effort.saturating_sub(nodes * self.edges.len().max(2) / 2);
         let mut before = self.integrate(sheet, 1, across);
         let mut error = f64::INFINITY;
         for order in 2..ORDERS.len() {
@@ -143,13 +149,15 @@ impl Panel<'_> {
                 return Area { value, error };
             }
         }
-        if depth == 0 || error.is_nan() {
+        if depth == 0 || *effort == 0 || error.is_nan() {
             return Area { value: before, error };
         }
         let middle = 0.5 * (self.low + self.high);
         let part = |low, high, turning| Panel { low, high, turning, edges: self.edges.clone(), ..*self };
-        let lower = part(self.low, middle, (self.turning.0, false)).measure(sheet, tolerance, depth - 1);
-        let upper = part(middle, self.high, (false, self.turning.1)).measure(sheet, tolerance, depth - 1);
+        let lower =
+            part(self.low, middle, (self.turning.0, false)).measure(sheet, tolerance, depth - 1, effort);
+        let upper =
+            part(middle, self.high, (false, self.turning.1)).measure(sheet, tolerance, depth - 1, effort);
         Area { value: lower.value + upper.value, error: lower.error + upper.error }
     }
 

@@ -10,7 +10,8 @@
 
 use glam::{DMat2, DVec2, DVec3};
 
-use crate::kernel::bezier::{BezierPatch, bernstein};
+use super::plane_net::{newton, smallest};
+use crate::kernel::bezier::BezierPatch;
 use crate::kernel::view::Ray;
 
 /// Off the middle, so that zeros at the centre of symmetric patches do not fall on the cut.
@@ -167,7 +168,11 @@ fn examine(net: &[DVec2], degree: (usize, usize), area: ParameterBox, tolerance:
         return Verdict::Empty;
     }
     if area.size.max_element() < TANGENT_SIZE {
-        return smallest(net, degree, area, tolerance);
+        let (x, distance) = smallest(net, degree, tolerance);
+        if distance > 8.0 * tolerance {
+            return Verdict::Empty;
+        }
+        return Verdict::Root(LineRoot { uv: area.min + x * area.size, simple: false });
     }
     if linear.determinant().abs() <= 1e-9 * steps.longest_u * steps.longest_v {
         return split;
@@ -261,79 +266,4 @@ fn is_one_to_one(net: &[DVec2], (m, n): (usize, usize), inverse: DMat2) -> bool 
         }
     }
     (off_u + off_v).max_element() < 0.95
-}
-
-/// Newton's method on the net from `start` (box parameters); `None` when it does not settle near the box.
-fn newton(net: &[DVec2], degree: (usize, usize), start: DVec2) -> Option<DVec2> {
-    let mut x = start.clamp(DVec2::ZERO, DVec2::ONE);
-    let mut last = f64::INFINITY;
-    for _ in 0..20 {
-        let (value, jacobian) = evaluate(net, degree, x);
-        let step = jacobian.inverse() * value;
-        if !step.is_finite() {
-            return None;
-        }
-        x = (x - step).clamp(DVec2::splat(-0.1), DVec2::splat(1.1));
-        let size = step.abs().max_element();
-        if size < 1e-15 || (size < 1e-9 && size >= 0.5 * last) {
-            return Some(x);
-        }
-        last = size;
-    }
-    None
-}
-
-/// Decides a tiny box, on which the map has no useful inverse, by the smallest distance from 0 near it
-/// (Levenberg & Marquardt).
-fn smallest(net: &[DVec2], degree: (usize, usize), area: ParameterBox, tolerance: f64) -> Verdict {
-    let mut x = DVec2::splat(0.5);
-    let (mut value, mut jacobian) = evaluate(net, degree, x);
-    let mut damping = 1e-3 * (jacobian.x_axis.length_squared() + jacobian.y_axis.length_squared());
-    for _ in 0..60 {
-        if value.length() <= tolerance || damping == 0.0 {
-            break;
-        }
-        let transposed = jacobian.transpose();
-        let step = (transposed * jacobian + DMat2::from_diagonal(DVec2::splat(damping))).inverse()
-            * (transposed * value);
-        let next = (x - step).clamp(DVec2::splat(-0.5), DVec2::splat(1.5));
-        let (next_value, next_jacobian) = evaluate(net, degree, next);
-        if next_value.length() < value.length() {
-            (x, value, jacobian) = (next, next_value, next_jacobian);
-            damping *= 0.2;
-        } else {
-            damping *= 5.0;
-        }
-    }
-    if value.length() <= 8.0 * tolerance {
-        Verdict::Root(LineRoot { uv: area.min + x * area.size, simple: false })
-    } else {
-        Verdict::Empty
-    }
-}
-
-/// Value and Jacobian of the net at `x` in box parameters.
-pub(crate) fn evaluate(net: &[DVec2], degree: (usize, usize), x: DVec2) -> (DVec2, DMat2) {
-    match degree.0.max(degree.1) {
-        0..4 => evaluate_sized::<4>(net, degree, x),
-        4..8 => evaluate_sized::<8>(net, degree, x),
-        8..16 => evaluate_sized::<16>(net, degree, x),
-        _ => evaluate_sized::<{ bernstein::MAX_COUNT }>(net, degree, x),
-    }
-}
-
-fn evaluate_sized<const N: usize>(net: &[DVec2], (m, n): (usize, usize), x: DVec2) -> (DVec2, DMat2) {
-    let (bu, bv) = (bernstein::tangent::<N>(m, x.x), bernstein::tangent::<N>(n, x.y));
-    let (mut value, mut du, mut dv) = (DVec2::ZERO, DVec2::ZERO, DVec2::ZERO);
-    for (i, row) in net.chunks_exact(n + 1).enumerate() {
-        let (mut a, mut b) = (DVec2::ZERO, DVec2::ZERO);
-        for (j, p) in row.iter().enumerate() {
-            a += *p * bv[0][j];
-            b += *p * bv[1][j];
-        }
-        value += a * bu[0][i];
-        du += a * bu[1][i];
-        dv += b * bu[0][i];
-    }
-    (value, DMat2::from_cols(du, dv))
 }

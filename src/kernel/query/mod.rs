@@ -11,6 +11,7 @@ pub mod fit;
 pub mod line_roots;
 pub mod locate;
 pub mod offset;
+mod plane_net;
 pub mod project;
 pub mod quadrature;
 pub mod raycast;
