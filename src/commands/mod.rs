@@ -30,6 +30,7 @@ pub fn run() -> ExitCode {
             return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
         }
     };
+    quieten_drivers(&arguments);
     match dispatch(&arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
@@ -50,3 +51,26 @@ fn dispatch(arguments: &Arguments) -> Result<(), Failure> {
         Some(Command::Bench(arguments)) => bench::run(arguments),
     }
 }
+
+/// Mesa's device-selection layer looks for a Wayland display and complains on standard error where
+/// there is no session (containers, root shells), although nothing is wrong. Starts the program
+/// again in place with that layer off; going on as before is fine too.
+#[cfg(all(feature = "gpu", target_os = "linux"))]
+fn quieten_drivers(arguments: &Arguments) {
+    use std::os::unix::process::CommandExt;
+
+    const LAYER_OFF: &str = "NODEVICE_SELECT";
+    let draws = !matches!(arguments.command, Some(Command::Info(_) | Command::Classify(_)));
+    let complains = std::env::var_os("XDG_RUNTIME_DIR").is_none() && std::env::var_os(LAYER_OFF).is_none();
+    if draws
+        && complains
+        && let Ok(program) = std::env::current_exe()
+    {
+        // Returns only when it fails, and then the complaint is harmless.
+        let _ =
+            std::process::Command::new(program).args(std::env::args_os().skip(1)).env(LAYER_OFF, "1").exec();
+    }
+}
+
+#[cfg(not(all(feature = "gpu", target_os = "linux")))]
+fn quieten_drivers(_arguments: &Arguments) {}

@@ -101,11 +101,21 @@ fn write_png(image: &Image, path: &Path) -> Result<(), Failure> {
     let fail = |e: png::EncodingError| Failure::Output { path: path.into(), reason: e.to_string() };
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width, image.height);
-    encoder.set_color(png::ColorType::Rgba);
+    // Most pictures have a background; without alpha their files are smaller.
+    let opaque = image.rgba.iter().skip(3).step_by(4).all(|alpha| *alpha == 255);
+    let rgb: Vec<u8>;
+    let pixels = if opaque {
+        rgb = image.rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+        encoder.set_color(png::ColorType::Rgb);
+        &rgb
+    } else {
+        encoder.set_color(png::ColorType::Rgba);
+        &image.rgba
+    };
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     let mut writer = encoder.write_header().map_err(fail)?;
-    writer.write_image_data(&image.rgba).map_err(fail)?;
+    writer.write_image_data(pixels).map_err(fail)?;
     writer.finish().map_err(fail)?;
     output::write_whole(path, &bytes)
 }
