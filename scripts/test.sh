@@ -20,7 +20,10 @@ step() {
     local title=$1 start=$SECONDS
     shift
     say "$title: $*"
-    "$@" || stop "FAILED: $title ($*)"
+    "$@" || {
+        printf '\nhairline: FAILED: %s (%s)\n' "$title" "$*" >&2
+        exit 1
+    }
     note "$title: done in $((SECONDS - start)) s"
 }
 

@@ -154,7 +154,7 @@ mod tests {
     #[test]
     fn everything_is_in_the_window_and_touches_opposite_sides() {
         let points: Vec<DVec3> = (0..60_u32)
-            .map(|k| f64::from(k))
+            .map(f64::from)
             .map(|k| {
                 DVec3::new(30.0 * (k * 0.7).sin() + 500.0, 80.0 * (k * 1.3).cos(), 9.0 * (k * 2.1).sin())
             })
