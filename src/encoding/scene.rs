@@ -179,6 +179,17 @@ impl PackedScene {
             + self.entries.len() * size_of::<FaceHeader>()
     }
 
+    /// Marks everything as changed, so that the next upload sends it all: for a second device, or after the
+    /// first was lost.
+    pub fn touch_all(&mut self) {
+        self.cells.touch_all();
+        self.points.touch_all();
+        self.faces.touch_all();
+        self.trim_cells.touch_all();
+        self.trim_entries.touch_all();
+        self.trim_data.touch_all();
+    }
+
     /// Grows with every change; equal numbers mean nothing changed.
     pub fn revision(&self) -> u64 {
         self.revision

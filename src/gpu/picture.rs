@@ -22,6 +22,7 @@ pub fn render_image(
     }
     let format = wgpu::TextureFormat::Rgba8Unorm;
     let mut renderer = Renderer::new(device, format);
+    scene.touch_all();
     renderer.upload(device, queue, scene)?;
     let target = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("picture"),

@@ -68,8 +68,7 @@ pub fn resolve(look: &Look, faces: &[FaceHeader], buffer: &VisibilityBuffer, x: 
     let eye = -ray.slope.extend(1.0).normalize();
     let heat = look.mode == MODE_HEAT;
     let mut n = if heat { unpack_heat_normal(here.words[3]) } else { unpack_normal(here.words[3]) };
-    // View axes are left-handed (z forward), so du x dv points to the inside there.
-    let outside = (n.dot(eye) < 0.0) != (face.flags & FaceHeader::REVERSED != 0);
+    let outside = (n.dot(eye) >= 0.0) != (face.flags & FaceHeader::REVERSED != 0);
     if n.dot(eye) < 0.0 {
         n = -n;
     }

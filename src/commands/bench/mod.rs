@@ -4,6 +4,8 @@
 
 pub mod build;
 pub mod classify;
+pub mod misses;
+pub mod raycast;
 pub mod rivals;
 pub mod shapes;
 pub mod sheet;
@@ -29,9 +31,8 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     tables.into_iter().try_for_each(|table| match table {
         Table::Classify => classify::run(&models, &mut out).map_err(unwritable),
         Table::Build => build::run(&models, &mut out).map_err(unwritable),
-        Table::Raycast | Table::Misses => {
-            Err(Failure::Lacking { reason: format!("the table {table:?} is not there yet") })
-        }
+        Table::Raycast => raycast::run(&models, &mut out).map_err(unwritable),
+        Table::Misses => misses::run(&models, &mut out).map_err(unwritable),
     })
 }
 

@@ -1,0 +1,199 @@
+//! `hairline bench raycast`: CPU time of a frame on the graphics driver and on the twin.
+//!
+//! The whole model from above at 1024 x 768, one sample, structures built. On a software driver CPU time
+//! is the work itself, whatever else the machine does. The floor is one converged solve per pixel: a
+//! single patch of the model's most common degrees that fills the window, every pixel hit at once.
+
+use std::io::{self, Write};
+use std::time::Instant;
+
+use glam::{DVec2, DVec3};
+
+use super::sheet::{Sheet, number};
+use crate::encoding::options::cast_flags;
+use crate::encoding::{DepthRange, DisplayMode, FaceShape, PackedScene, View};
+use crate::kernel::bezier::BezierPatch;
+use crate::kernel::face::{Face, UvRect};
+use crate::kernel::view::{Camera, Projection, StandardView};
+use crate::reference::visibility;
+use crate::scene::records::ModelRecord;
+
+const SIZE: [u32; 2] = [1024, 768];
+const FRAMES: u32 = 5;
+
+/// CPU seconds of a frame and the pixels it fills.
+#[derive(Debug, Clone, Copy)]
+struct Frame {
+    seconds: f64,
+    filled: usize,
+}
+
+/// Something that casts frames: the twin, or the renderer on a driver.
+type Caster<'a> = dyn FnMut(&mut PackedScene, &Camera, DisplayMode) -> Option<Frame> + 'a;
+
+/// Prints a table for each backend.
+///
+/// # Errors
+/// `out` cannot be written.
+pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
+    let demo = [crate::scene::demo::model()];
+    let models = if models.is_empty() { &demo[..] } else { models };
+    table("the CPU twin", models, &mut twin_frame, out)?;
+    #[cfg(feature = "gpu")]
+    match crate::gpu::Context::headless() {
+        Ok(context) => {
+            let name = context.adapter_name.clone();
+            let mut caster = |scene: &mut PackedScene, camera: &Camera, mode| {
+                gpu_frame(&context, scene, camera, mode).ok()
+            };
+            table(&name, models, &mut caster, out)?;
+        }
+        Err(error) => writeln!(out, "No table for the graphics driver: {error}\n")?,
+    }
+    Ok(())
+}
+
+fn table(name: &str, models: &[ModelRecord], caster: &mut Caster, out: &mut impl Write) -> io::Result<()> {
+    let mut sheet = Sheet::new(
+        format!("Ray casting on {name}, from above, {} x {}, CPU time", SIZE[0], SIZE[1]),
+        &[
+            "model",
+            "cells",
+            "filled %",
+            "s/frame",
+            "us/pixel",
+            "untrimmed s",
+            "trimming",
+            "solve us",
+            "frame/(filled x solve)",
+        ],
+    );
+    for model in models {
+        let faces: Vec<Face> = model.faces.iter().filter_map(|r| Face::derive(r).ok()).collect();
+        let mut scene = PackedScene::from_faces(faces.iter().map(|f| FaceShape::of(f, None, false)));
+        let (direction, up) = StandardView::Top.directions();
+        let projection = Projection::Perspective { fov_y: 0.6 };
+        let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
+        let camera = Camera::fit(&scene.bounds(), direction, up, projection, aspect);
+        let trimmed = caster(&mut scene, &camera, DisplayMode::Shaded);
+        let untrimmed = caster(&mut scene, &camera, DisplayMode::Untrimmed);
+        let (mut patch_scene, patch_camera) = one_patch(common_degrees(&faces));
+        let solve = caster(&mut patch_scene, &patch_camera, DisplayMode::Untrimmed)
+            .map(|f| f.seconds / f.filled.max(1) as f64);
+        let per_pixel = trimmed.map(|f| f.seconds / f.filled.max(1) as f64);
+        let ratio = |a: Option<f64>, b: Option<f64>| Some(a? / b?);
+        sheet.row([
+            model.name.clone(),
+            scene.counts().0.to_string(),
+            number(trimmed.map(|f| 100.0 * f.filled as f64 / f64::from(SIZE[0] * SIZE[1]))),
+            number(trimmed.map(|f| f.seconds)),
+            number(per_pixel.map(|s| 1e6 * s)),
+            number(untrimmed.map(|f| f.seconds)),
+            number(ratio(trimmed.map(|f| f.seconds), untrimmed.map(|f| f.seconds))),
+            number(solve.map(|s| 1e6 * s)),
+            number(ratio(per_pixel, solve)),
+        ]);
+    }
+    writeln!(out, "{sheet}")
+}
+
+/// The degrees that most patches have.
+fn common_degrees(faces: &[Face]) -> (usize, usize) {
+    let mut counts = std::collections::BTreeMap::new();
+    for patch in faces.iter().flat_map(|f| &f.patches) {
+        *counts.entry((patch.degree_u, patch.degree_v)).or_insert(0usize) += 1;
+    }
+    counts.into_iter().max_by_key(|(_, n)| *n).map_or((3, 3), |(degrees, _)| degrees)
+}
+
+/// A gently curved patch that more than fills the window of its camera.
+fn one_patch((m, n): (usize, usize)) -> (PackedScene, Camera) {
+    let (m, n) = (m.max(1), n.max(1));
+    let points = (0..=m).flat_map(|i| {
+        (0..=n).map(move |j| {
+            let (x, y) = (i as f64 / m as f64, j as f64 / n as f64);
+            DVec3::new(4.0 * x - 2.0, 4.0 * y - 2.0, 0.1 * (x * (1.0 - x) + y * y * (1.0 - y)))
+        })
+    });
+    let patch = BezierPatch {
+        degree_u: m,
+        degree_v: n,
+        points: points.collect(),
+        weights: vec![1.0; (m + 1) * (n + 1)],
+        uv_min: DVec2::ZERO,
+        uv_max: DVec2::ONE,
+    };
+    let domain = UvRect { min: DVec2::ZERO, max: DVec2::ONE };
+    let shape = FaceShape { patches: &[patch], domain, grid: None, colour: [0.5; 3], reversed: false };
+    let camera = Camera {
+        eye: DVec3::new(0.0, 0.0, 5.0),
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        projection: Projection::Orthographic { height: 2.0 },
+    };
+    (PackedScene::from_faces([shape]), camera)
+}
+
+fn depth_of(scene: &PackedScene, camera: &Camera) -> DepthRange {
+    let bounds = scene.bounds();
+    DepthRange::around(camera, bounds.centre(), 0.5 * bounds.diagonal())
+}
+
+fn twin_frame(scene: &mut PackedScene, camera: &Camera, mode: DisplayMode) -> Option<Frame> {
+    let view = View::new(camera, SIZE, [0.0; 2], depth_of(scene, camera), cast_flags(mode));
+    let filled = visibility::draw(scene, &view).fragments.iter().filter(|f| f.words[0] != 0).count();
+    let seconds = cpu_per_run(FRAMES, || drop(visibility::draw(scene, &view)));
+    Some(Frame { seconds, filled })
+}
+
+#[cfg(feature = "gpu")]
+fn gpu_frame(
+    context: &crate::gpu::Context,
+    scene: &mut PackedScene,
+    camera: &Camera,
+    mode: DisplayMode,
+) -> Result<Frame, crate::gpu::GpuError> {
+    use crate::gpu::{Renderer, Sample, picture::read_texture};
+    let (device, queue) = (&context.device, &context.queue);
+    let mut renderer = Renderer::new(device, wgpu::TextureFormat::Rgba8Unorm);
+    scene.touch_all();
+    renderer.upload(device, queue, scene)?;
+    let sample =
+        Sample { camera: *camera, depth: depth_of(scene, camera), size: SIZE, jitter: [0.0; 2], mode };
+    let mut failed = Ok(());
+    let mut cast = || {
+        let mut encoder = device.create_command_encoder(&Default::default());
+        renderer.cast(device, queue, &mut encoder, &sample);
+        queue.submit([encoder.finish()]);
+        let waited = context.wait();
+        if waited.is_err() {
+            failed = waited;
+        }
+    };
+    // The first frame compiles the shaders.
+    cast();
+    let seconds = cpu_per_run(FRAMES, &mut cast);
+    failed?;
+    let words = read_texture(context, &renderer.targets().visibility)?;
+    let filled = words.chunks_exact(16).filter(|w| w[..4] != [0; 4]).count();
+    Ok(Frame { seconds, filled })
+}
+
+/// CPU seconds of this process per run of `work`, wall seconds where the system does not tell.
+fn cpu_per_run(runs: u32, mut work: impl FnMut()) -> f64 {
+    let (wall, cpu) = (Instant::now(), process_seconds());
+    (0..runs).for_each(|_| work());
+    let spent = match (cpu, process_seconds()) {
+        (Some(before), Some(after)) => after - before,
+        _ => wall.elapsed().as_secs_f64(),
+    };
+    spent / f64::from(runs)
+}
+
+/// User and system time of all threads so far, from Linux's process table (100 ticks a second).
+fn process_seconds() -> Option<f64> {
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let fields: Vec<&str> = stat.rsplit(')').next()?.split_whitespace().collect();
+    let ticks = |k: usize| fields.get(k)?.parse::<f64>().ok();
+    Some((ticks(11)? + ticks(12)?) / 100.0)
+}
