@@ -14,7 +14,7 @@ pub fn bounds(words: &[f32], degree: usize, rational: bool, ends: [f32; 4]) -> (
     let net = Net::new(words, degree, rational, ends);
     let (mut first, mut second) = (Vectors::default(), Vectors::default());
     if rational {
-        let samples = 4 + 2 * degree;
+        let samples = 4 + degree;
         for k in 0..=samples {
             let (c1, c2) = net.derivatives(k as f64 / samples as f64);
             first.push(c1);
@@ -36,7 +36,7 @@ pub fn bounds(words: &[f32], degree: usize, rational: bool, ends: [f32; 4]) -> (
 }
 
 /// What sampling may miss between the samples of a rational curve's derivatives.
-const RATIONAL_MARGIN: f64 = 1.15;
+const RATIONAL_MARGIN: f64 = 1.25;
 
 /// Control points and weights relative to the lower end, on the stack.
 struct Net {

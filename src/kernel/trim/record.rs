@@ -47,12 +47,38 @@ pub fn crossing(
     v: f32,
     tally: &mut impl Tally,
 ) -> bool {
-    if u < ends[0].min(ends[2]) {
+    if u < least(ends[0], ends[2]) {
         return true;
     }
-    if u >= ends[0].max(ends[2]) {
+    if u >= most(ends[0], ends[2]) {
         return false;
     }
+    crossing_in_box(data, address, ends, entry, u, v, tally)
+}
+
+/// The smaller of two numbers, neither of them NaN.
+#[inline]
+pub fn least(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// The larger of two numbers, neither of them NaN.
+#[inline]
+pub fn most(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The same as [`crossing`] for a point in the segment's box.
+#[inline]
+pub fn crossing_in_box(
+    data: &[[u32; 4]],
+    address: usize,
+    ends: [f32; 4],
+    entry: u32,
+    u: f32,
+    v: f32,
+    tally: &mut impl Tally,
+) -> bool {
     tally.test();
     let p = [u - ends[0], v - ends[1]];
     let d = [ends[2] - ends[0], ends[3] - ends[1]];
@@ -65,11 +91,8 @@ pub fn crossing(
     let compact = degree == 3 && !rational;
     let (low, high) =
         if compact { cubic_bounds(load(data, address + 1), d) } else { stored_bounds(data, address) };
-    if side < low {
-        return true;
-    }
-    if side > high {
-        return false;
+    if (side < low) | (side > high) {
+        return side < low;
     }
     if compact {
         let q = load(data, address + 1);
@@ -98,25 +121,21 @@ fn bisect(
         let m = point(t + dt);
         tally.evaluation();
         // Rounding must not break the monotony that the tests below stand on.
-        let m = [m[0].max(a[0].min(b[0])).min(a[0].max(b[0])), m[1].max(a[1]).min(b[1])];
+        let (left, right) = (least(a[0], b[0]), most(a[0], b[0]));
+        let m = [least(most(m[0], left), right), least(most(m[1], a[1]), b[1])];
         if p[1] >= m[1] {
             a = m;
             t += dt;
         } else {
             b = m;
         }
-        if p[0] < a[0].min(b[0]) {
-            return true;
-        }
-        if p[0] >= a[0].max(b[0]) {
-            return false;
-        }
         side = cross([p[0] - a[0], p[1] - a[1]], [b[0] - a[0], b[1] - a[1]]);
-        if side < low * band {
-            return true;
-        }
-        if side > high * band {
-            return false;
+        // The box is sharper than the band: where rounding makes them disagree it decides.
+        let (left, right) = (p[0] < least(a[0], b[0]), p[0] >= most(a[0], b[0]));
+        let right_of = left | (!right & (side < low * band));
+        let left_of = right | (side > high * band);
+        if right_of | left_of {
+            return right_of;
         }
     }
     tally.undecided();
@@ -172,10 +191,10 @@ fn cubic_bounds(q: [f32; 4], d: [f32; 2]) -> (f32, f32) {
     let e1 = [q[2] - q[0], q[3] - q[1]];
     let e2 = [3.0 * d[0] - q[2], 3.0 * d[1] - q[3]];
     let (a, b, c) = (cross(e1, e0), cross(e2, e1), cross(e2, e0));
-    let least = a.min(b).min(c - a).min(c - b).min(0.0);
-    let most = a.max(b).max(c - a).max(c - b).max(0.0);
+    let low = least(least(least(a, b), least(c - a, c - b)), 0.0);
+    let high = most(most(most(a, b), most(c - a, c - b)), 0.0);
     // A little more than 1/4, for the rounding of the products.
-    (-0.2500005 * most, -0.2500005 * least)
+    (-0.2500005 * high, -0.2500005 * low)
 }
 
 #[inline]

@@ -16,7 +16,7 @@ use crate::kernel::trim::segment::SegmentSet;
 /// Choices of the build. The answers do not depend on them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GridOptions {
-    /// Cells for each segment; `None`: 4 for less than 64 segments, else 2.
+    /// Cells for each segment; `None`: 4 for less than 64 segments, else 3.
     pub cells_per_segment: Option<f64>,
     /// Cells with more entries than this are refined.
     pub crowded: u32,
@@ -52,7 +52,7 @@ pub fn build(set: &SegmentSet, packed: &PackedSegments, options: &GridOptions) -
     if count == 0 {
         return Built::default();
     }
-    let per_segment = options.cells_per_segment.unwrap_or(if count < 64 { 4.0 } else { 2.0 });
+    let per_segment = options.cells_per_segment.unwrap_or(if count < 64 { 4.0 } else { 3.0 });
     let side = (per_segment * count as f64).sqrt().round().clamp(1.0, MAX_SIDE) as u32;
     let frame = Frame::outer(side, side);
     let header = GridHeader {
