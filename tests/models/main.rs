@@ -5,5 +5,6 @@ mod areas;
 mod cli;
 mod iges_truth;
 mod import;
+mod mutations;
 mod points;
 mod truth;

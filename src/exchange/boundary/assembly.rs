@@ -17,6 +17,10 @@ const MOST_POLES: usize = 5;
 /// Puts `pieces` end to start: reverses and shifts pieces by periods where that closes gaps. Gaps
 /// that stay are bridged by straight lines, except the last one (see [`super::winding`]).
 pub fn chain(carrier: &Carrier, pieces: Vec<NurbsCurve2>) -> Vec<NurbsCurve2> {
+    let pieces = match reordered(&pieces) {
+        Some(order) => return order.into_iter().map(|k| pieces[k].clone()).collect(),
+        None => pieces,
+    };
     let gap = |a: DVec2, b: DVec2| (carrier.point(a) - carrier.point(b)).length();
     let mut result: Vec<NurbsCurve2> = Vec::with_capacity(pieces.len());
     let count = pieces.len();
@@ -45,6 +49,28 @@ pub fn chain(carrier: &Carrier, pieces: Vec<NurbsCurve2>) -> Vec<NurbsCurve2> {
     }
     turn_at_poles(carrier, &mut result);
     bridge(carrier, result)
+}
+
+/// The order in which pieces that close in uv as they are follow each other. Files list them as they
+/// meet in space, which on a seam need not be as they meet in uv. `None` when they do not close.
+fn reordered(pieces: &[NurbsCurve2]) -> Option<Vec<usize>> {
+    /// Far above rounding in files, far below any piece that matters.
+    const MET: f64 = 1e-7;
+    let (min, max) = super::bounds_of_ends(pieces)?;
+    let size = (max - min).max(DVec2::splat(f64::MIN_POSITIVE));
+    let gap = |a: usize, b: usize| ((start(&pieces[b]) - end(&pieces[a])).abs() / size).max_element();
+    let mut order = vec![0];
+    let mut left: Vec<usize> = (1..pieces.len()).collect();
+    while !left.is_empty() {
+        let last = order[order.len() - 1];
+        // The next piece of the file wins among equals; otherwise the nearest.
+        let next = (0..left.len()).min_by(|a, b| gap(last, left[*a]).total_cmp(&gap(last, left[*b])))?;
+        if !(gap(last, left[next]) <= MET) {
+            return None;
+        }
+        order.push(left.remove(next));
+    }
+    (gap(order[order.len() - 1], 0) <= MET && pieces.len() > 1).then_some(order)
 }
 
 /// The multiple of the periods nearest to `difference`.
@@ -88,9 +114,15 @@ fn turn_at_poles(carrier: &Carrier, pieces: &mut [NurbsCurve2]) {
     for axis in 0..2 {
         let Some(period) = periods[axis] else { continue };
         let count = pieces.len();
+        // A piece along the pole says by itself how u goes on.
+        let along: Vec<bool> = pieces.iter().map(|p| runs_along_pole(carrier, p, axis, period)).collect();
         let joints: Vec<usize> = (0..count)
             .filter(|i| {
-                let (a, b) = (end(&pieces[(i + count - 1) % count]), start(&pieces[*i]));
+                let before = (i + count - 1) % count;
+                if along[before] || along[*i] {
+                    return false;
+                }
+                let (a, b) = (end(&pieces[before]), start(&pieces[*i]));
                 // Only where the other coordinate agrees: the pole is one line of the domain.
                 carrier.is_singular(a)[axis] && carrier.is_singular(b)[axis]
             })
@@ -98,7 +130,7 @@ fn turn_at_poles(carrier: &Carrier, pieces: &mut [NurbsCurve2]) {
         if joints.is_empty() || joints.len() > MOST_POLES {
             continue;
         }
-        if let Some(shifts) = best_turns(carrier, pieces, axis, period, &joints) {
+        if let Some(shifts) = best_turns(pieces, axis, period, &joints) {
             for (piece, shift) in pieces.iter_mut().zip(shifts) {
                 let by = if axis == 0 { DVec2::new(shift, 0.0) } else { DVec2::new(0.0, shift) };
                 *piece = shifted(piece, by);
@@ -107,14 +139,13 @@ fn turn_at_poles(carrier: &Carrier, pieces: &mut [NurbsCurve2]) {
     }
 }
 
+fn runs_along_pole(carrier: &Carrier, piece: &NurbsCurve2, axis: usize, period: f64) -> bool {
+    let (a, b) = (start(piece), end(piece));
+    (b - a)[axis].abs() > 1e-6 * period && carrier.is_singular(a)[axis] && carrier.is_singular(b)[axis]
+}
+
 /// Shifts of every piece that close the loop best.
-fn best_turns(
-    carrier: &Carrier,
-    pieces: &[NurbsCurve2],
-    axis: usize,
-    period: f64,
-    joints: &[usize],
-) -> Option<Vec<f64>> {
+fn best_turns(pieces: &[NurbsCurve2], axis: usize, period: f64, joints: &[usize]) -> Option<Vec<f64>> {
     let other = 1 - axis;
     let count = pieces.len();
     let (low, high) = pieces
@@ -122,27 +153,21 @@ fn best_turns(
         .flat_map(|p| [start(p)[other], end(p)[other]])
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
     let mut best: Option<((usize, f64), Vec<f64>)> = None;
-    // Of a joint before the first piece only the jump matters, which closing takes care of.
     let choices = 3usize.pow(joints.len() as u32);
     for code in 0..choices {
         let mut shifts = vec![0.0; count];
-        let mut kept = 0;
-        let mut jumps = Vec::new();
+        let mut idle = true;
         let mut rest = code;
         for joint in joints {
             let turn = (rest % 3) as f64 - 1.0;
             rest /= 3;
-            if *joint > 0 {
-                shifts[*joint..].iter_mut().for_each(|s| *s += turn * period);
-            } else if turn != 0.0 {
-                kept = usize::MAX;
-            }
-            jumps.push(*joint);
+            // A turn before the first piece is the same as all others the other way round.
+            idle &= *joint > 0 || turn == 0.0;
+            shifts[*joint..].iter_mut().for_each(|s| *s += turn * period);
         }
-        if kept == usize::MAX {
+        if !idle {
             continue;
         }
-        let first = start(&pieces[0])[axis];
         let mut closed = true;
         let mut area = 0.0;
         let mut rule = 0;
@@ -178,7 +203,6 @@ fn best_turns(
                 previous = Some(p);
             }
         }
-        let _ = (first, carrier);
         if !closed || area.abs() < 1e-9 * period * (high - low) {
             continue;
         }

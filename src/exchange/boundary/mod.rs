@@ -39,6 +39,13 @@ pub fn shifted(curve: &NurbsCurve2, by: DVec2) -> NurbsCurve2 {
     if by == DVec2::ZERO { curve.clone() } else { curve.map_points(|p| p + by) }
 }
 
+/// Box (min, max) of the ends of `curves`.
+pub fn bounds_of_ends(curves: &[NurbsCurve2]) -> Option<(DVec2, DVec2)> {
+    curves.iter().flat_map(|c| [start(c), end(c)]).fold(None, |b: Option<(DVec2, DVec2)>, p| {
+        Some(b.map_or((p, p), |(min, max)| (min.min(p), max.max(p))))
+    })
+}
+
 /// Tight box (min, max) of `curves`: control points for straight pieces, extrema otherwise.
 pub fn bounds<'a>(curves: impl IntoIterator<Item = &'a NurbsCurve2>) -> Option<(DVec2, DVec2)> {
     let mut result: Option<(DVec2, DVec2)> = None;

@@ -37,6 +37,11 @@ impl AxisMap {
         Self { scale, ..Self::IDENTITY }
     }
 
+    /// Adds whole turns to the angle.
+    pub fn turned(self, turns: f64) -> Self {
+        Self { offset: self.offset + turns * std::f64::consts::TAU, ..self }
+    }
+
     /// The image of `x`.
     pub fn apply(&self, x: f64) -> f64 {
         let y = x * self.scale + self.offset;

@@ -37,7 +37,7 @@ pub(crate) fn read(
                 194 => {
                     let radius = args.real("radius")? * scale;
                     let semi_angle = args.real("semi-angle")?.to_radians();
-                    if !(radius >= 0.0) || !(semi_angle > 0.0 && semi_angle < std::f64::consts::FRAC_PI_2) {
+                    if radius < 0.0 || !(semi_angle > 0.0 && semi_angle < std::f64::consts::FRAC_PI_2) {
                         return Err(EntityError::Degenerate(format!(
                             "a cone of radius {radius} and semi-angle {semi_angle} rad is not a cone"
                         )));

@@ -124,7 +124,11 @@ pub(crate) fn boundary(
     if pieces.is_empty() {
         return Err(EntityError::Degenerate("the boundary has no curves".into()));
     }
-    Ok(RawLoop { role, curves: assembly::chain(carrier, pieces) })
+    let curves = assembly::chain(carrier, pieces);
+    if !curves.iter().flat_map(|c| [start(c), end(c)]).all(|p| reasonable(carrier, p)) {
+        return Err(EntityError::Degenerate("the boundary leaves the surface".into()));
+    }
+    Ok(RawLoop { role, curves })
 }
 
 /// The file's pcurves in native parameters, when they agree with the space curves.
@@ -163,6 +167,15 @@ fn inside(carrier: &Carrier, curves: &[NurbsCurve2]) -> bool {
             carrier.periods()[k].is_some() || (p[k] >= min[k] - margin[k] && p[k] <= max[k] + margin[k])
         })
     })
+}
+
+/// Whether a point is not absurdly far outside of the surface's domain.
+fn reasonable(carrier: &Carrier, p: DVec2) -> bool {
+    const SPANS: f64 = 20.0;
+    let Carrier::Spline(spline) = carrier else { return p.is_finite() };
+    let ((u0, u1), (v0, v1)) = (spline.surface().knots_u().domain(), spline.surface().knots_v().domain());
+    let (min, span) = (DVec2::new(u0, v0), DVec2::new(u1 - u0, v1 - v0));
+    ((p - min).abs() / span).max_element() < SPANS
 }
 
 /// Whether ends and middles of the pcurves lie on the space curves, within `tolerance` and what the

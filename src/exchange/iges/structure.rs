@@ -73,7 +73,7 @@ pub(crate) fn read(store: &Store<'_>) -> Structure {
     for (index, entry) in store.entries.iter().enumerate() {
         reader.refresh();
         let pointer = Store::number(index) as i64;
-        if is_container(entry.kind) && !(entry.kind == 402 && !matches!(entry.form, 1 | 7 | 14 | 15)) {
+        if is_container(entry.kind) && (entry.kind != 402 || matches!(entry.form, 1 | 7 | 14 | 15)) {
             match reader.open(pointer, "structure", contents) {
                 Ok((list, name)) => {
                     let definition = matches!(entry.kind, 308 | 430 | 184 | 408);
@@ -157,11 +157,7 @@ impl Builder<'_, '_, '_> {
         // A definition is not a part of its own: its instance is. Nor is the only shell of a solid.
         let alone = kind == 514 && part.is_some();
         let own = if kind == 308 || alone {
-            if let (Some(p), Some(n)) = (part, &name)
-                && self.parts[p]
-                    .name
-                    .ends_with(&format!(" {}", 2 * self.path.last().copied().unwrap_or(0) + 1))
-            {
+            if let (308, Some(p), Some(n)) = (kind, part, &name) {
                 self.parts[p].name.clone_from(n);
             }
             part

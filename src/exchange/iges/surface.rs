@@ -83,7 +83,17 @@ pub(crate) fn read_opened(
 fn swept((sweep, map): (Sweep, UvMap), own: DAffine3, index: usize) -> Result<Surface, EntityError> {
     let sweep = Sweep { model_from_local: own, ..sweep };
     let carrier = Carrier::spline(sweep.spline()?);
-    Ok(Surface { carrier, native_from_iges: vec![map], boundary: None, sweep: Some(sweep), index })
+    // Angles along an arc may be meant a turn away from where the arc starts.
+    let turned = |map: UvMap, turns: f64| UvMap { v: map.v.turned(turns), ..map };
+    let turned_u = |map: UvMap, turns: f64| UvMap { u: map.u.turned(turns), ..map };
+    let mut native_from_iges = vec![map];
+    if map.v.arc.is_some() {
+        native_from_iges.extend([turned(map, 1.0), turned(map, -1.0)]);
+    }
+    if map.u.arc.is_some() {
+        native_from_iges.extend([turned_u(map, 1.0), turned_u(map, -1.0)]);
+    }
+    Ok(Surface { carrier, native_from_iges, boundary: None, sweep: Some(sweep), index })
 }
 
 fn placed(surface: NurbsSurface, own: DAffine3) -> NurbsSurface {
@@ -107,8 +117,16 @@ pub(crate) fn analytic(surface: AnalyticSurface, scale: f64, index: usize) -> Su
         Shape::Cylinder { .. } | Shape::Cone { .. } => {
             vec![UvMap::new(degrees, length), UvMap::new(radians, length)]
         }
-        Shape::Sphere { .. } | Shape::Torus { .. } => {
-            vec![UvMap::new(degrees, degrees), UvMap::new(radians, radians)]
+        Shape::Sphere { .. } => vec![UvMap::new(degrees, degrees), UvMap::new(radians, radians)],
+        Shape::Torus { .. } => {
+            // IGES goes round the tube first, and OpenCASCADE writes the other angle backwards.
+            let back = AxisMap { scale: -degrees.scale, offset: std::f64::consts::TAU, arc: None };
+            vec![
+                UvMap { swap: true, u: back, v: degrees },
+                UvMap { swap: true, u: degrees, v: degrees },
+                UvMap::new(degrees, degrees),
+                UvMap::new(radians, radians),
+            ]
         }
     };
     Surface { carrier: Carrier::Analytic(surface), native_from_iges, boundary: None, sweep: None, index }

@@ -53,7 +53,7 @@ pub fn arc_frame(start: f64, end: f64) -> Result<(KnotVector, Vec<ArcNode>), Nur
     let weight = half.cos();
     let node = |k: usize| {
         let (sin, cos) = (start + half * k as f64).sin_cos();
-        if k % 2 == 0 {
+        if k.is_multiple_of(2) {
             ArcNode { x: cos, y: sin, weight: 1.0 }
         } else {
             ArcNode { x: cos / weight, y: sin / weight, weight }

@@ -134,10 +134,22 @@ impl SplineCarrier {
         if last < best.1 { (uv, last) } else { best }
     }
 
+    /// Whether the surface is perpendicular to the way from `p`, as far as its edges let it be.
+    fn is_foot(&self, p: DVec3, uv: DVec2) -> bool {
+        let jet = self.surface.jet(uv.x, uv.y);
+        let r = jet.point - p;
+        let level = 1e-6 * r.length();
+        let (min, max) = self.limits();
+        let edge = |k: usize| self.periods[k].is_none() && (uv[k] <= min[k] || uv[k] >= max[k]);
+        (edge(0) || r.dot(jet.du).abs() <= level * jet.du.length())
+            && (edge(1) || r.dot(jet.dv).abs() <= level * jet.dv.length())
+    }
+
     fn locate(&self, p: DVec3, near: Option<DVec2>) -> DVec2 {
         if let Some(near) = near {
             let (uv, distance) = self.newton(p, near);
-            if distance <= 1e-6 * self.size {
+            // Curves that lie a little off the surface have a nearest point all the same.
+            if distance <= 1e-6 * self.size || self.is_foot(p, uv) {
                 return uv;
             }
         }

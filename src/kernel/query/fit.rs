@@ -8,7 +8,13 @@ use glam::DVec2;
 use crate::kernel::nurbs::{KnotVector, NurbsCurve2};
 
 /// Halvings of one piece at most; beyond it the deviation reached is reported.
-const DEPTH: u32 = 14;
+const DEPTH: u32 = 10;
+/// Pieces of one curve at most.
+const MOST_PIECES: usize = 300;
+/// Halving must at least do this to the deviation, or it is not the length of the piece that is wrong.
+const GAIN: f64 = 0.7;
+/// Halvings without gain that are forgiven.
+const STALLS: u32 = 3;
 
 /// Position and derivative of the function at one parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,6 +23,15 @@ pub struct Sample {
     pub uv: DVec2,
     /// Derivative by the parameter.
     pub derivative: DVec2,
+}
+
+/// How a piece came about.
+#[derive(Debug, Clone, Copy)]
+struct Halvings {
+    depth: u32,
+    stalls: u32,
+    /// Deviation of the piece it is a half of.
+    before: f64,
 }
 
 /// A curve to fit.
@@ -44,8 +59,12 @@ pub fn fit(
     for span in breaks.windows(2) {
         let first = target.sample(span[0], near, 1);
         let last = target.sample_towards(first.uv, span[0], span[1]);
-        let mut stack = vec![((span[0], first), (span[1], last), 0)];
-        while let Some(((a, start), (b, end), depth)) = stack.pop() {
+        let mut stack = vec![(
+            (span[0], first),
+            (span[1], last),
+            Halvings { depth: 0, stalls: 0, before: f64::INFINITY },
+        )];
+        while let Some(((a, start), (b, end), history)) = stack.pop() {
             let h = b - a;
             let piece = [
                 start.uv,
@@ -65,10 +84,13 @@ pub fn fit(
                     at_middle = Some(exact);
                 }
             }
-            let split = deviation > tolerance && depth < DEPTH && middle > a && middle < b;
-            if let (true, Some(exact)) = (split || depth == 0, at_middle) {
-                stack.push(((middle, exact), (b, end), depth + 1));
-                stack.push(((a, start), (middle, exact), depth + 1));
+            let stalls = history.stalls + u32::from(deviation > GAIN * history.before);
+            let hopeful = history.depth < DEPTH && stalls <= STALLS && points.len() < 3 * MOST_PIECES;
+            let split = deviation > tolerance && hopeful && middle > a && middle < b;
+            if let (true, Some(exact)) = (split || history.depth == 0, at_middle) {
+                let next = Halvings { depth: history.depth + 1, stalls, before: deviation };
+                stack.push(((middle, exact), (b, end), next));
+                stack.push(((a, start), (middle, exact), next));
                 continue;
             }
             worst = worst.max(deviation);

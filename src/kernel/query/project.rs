@@ -63,6 +63,13 @@ pub fn project(
             Some(uv)
         }
     };
+    // What lies off the surface is not known better than that.
+    let (first, last) = curve.domain();
+    let off = (0..5).map(|k| {
+        let p = curve.point(first + (last - first) * 0.25 * f64::from(k));
+        (carrier.point(carrier.locate(p, None)) - p).length()
+    });
+    let tolerance = tolerance.max(1e-2 * off.fold(0.0, f64::max));
     let mut target = Inversion { carrier, curve, distance: 0.0 };
     let (fitted, deviation) = fit(&mut target, &breaks, start, tolerance)?;
     let distance = target.distance;
@@ -101,6 +108,10 @@ impl Target for Inversion<'_> {
         let d = self.curve.derivatives(inside, 1);
         let [p, du, dv] = self.carrier.jet(uv);
         self.distance = self.distance.max((p - d[0]).length().min((p - self.curve.point(t)).length()));
+        let singular = self.carrier.is_singular(uv);
+        // Along a pole's own direction there is no derivative.
+        let du = if singular[0] { DVec3::ZERO } else { du };
+        let dv = if singular[1] { DVec3::ZERO } else { dv };
         Sample { uv, derivative: tangent(du, dv, d[1]) }
     }
 
@@ -114,7 +125,7 @@ fn tangent(du: DVec3, dv: DVec3, d: DVec3) -> DVec2 {
     let (a, b, c) = (du.dot(du), du.dot(dv), dv.dot(dv));
     let (x, y) = (du.dot(d), dv.dot(d));
     let det = a * c - b * b;
-    let result = if det > 1e-12 * a * c {
+    let result = if det > 1e-12 * a * c && det > 0.0 {
         DVec2::new(c * x - b * y, a * y - b * x) / det
     } else if a >= c {
         DVec2::new(if a > 0.0 { x / a } else { 0.0 }, 0.0)
