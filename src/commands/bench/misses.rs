@@ -61,7 +61,7 @@ impl Closeups {
     }
 
     /// The next camera.
-    pub fn next(&mut self) -> Camera {
+    pub fn camera(&mut self) -> Camera {
         let patches = self.caster.patches().len();
         let index = ((self.uniform() * patches as f64) as usize).min(patches.saturating_sub(1));
         let (a, b) = (self.uniform(), self.uniform());
@@ -215,7 +215,7 @@ pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
         let mut closeups = Closeups::new(&faces, scene.bounds(), 1);
         let mut total = Tally::default();
         for _ in 0..VIEWS {
-            let camera = closeups.next();
+            let camera = closeups.camera();
             total.add(&compare(&scene, &closeups.caster, &faces, &camera, PIXELS));
         }
         sheet.row([
