@@ -61,7 +61,8 @@ fn vertex(line: Line, @builtin(vertex_index) index: u32) -> Corner {
   let reach = 0.5 * line.width_px + 1.0;
   let side = select(-reach, reach, left);
   let end = select(a, b, at_end);
-  out.clip = vec4f(end.xy + normal * side / half * end.w, end.zw);
+  // A little farther than it is: a surface in the plane of the grid covers it.
+  out.clip = vec4f(end.xy + normal * side / half * end.w, end.z * 0.998, end.w);
   out.color = line.color;
   out.across = vec2f(side, 0.5 * line.width_px);
   out.relative = select(p, q, at_end);

@@ -146,7 +146,8 @@ fn closing_leaves_nothing_behind() {
     command(&mut app, Action::CloseAll);
     assert!(app.world().resource::<Scene>().is_empty());
     assert!(selected(&app).is_empty());
-    let left = app.world_mut().query_filtered::<(), Or<(With<AuthoredFace>, With<TrimLoop>, With<Model>)>>();
+    let mut left =
+        app.world_mut().query_filtered::<(), Or<(With<AuthoredFace>, With<TrimLoop>, With<Model>)>>();
     assert_eq!(left.iter(app.world()).count(), 0, "entities are left");
     assert!(app.world().resource::<SceneBounds>().all.is_empty());
 }

@@ -31,17 +31,39 @@ pub(super) fn is_ready(ctx: &egui::Context) -> bool {
     })
 }
 
+/// Height that the atlas of glyphs is brought to before anything is shown, texels.
+const ATLAS_HEIGHT: usize = 1024;
+
+/// Makes the atlas of glyphs grow while nothing is on the screen yet: in a frame in which it grows no panel
+/// is drawn at all. It doubles when it is full, so half of it is free afterwards.
+fn grow_atlas(ctx: &egui::Context) {
+    ctx.fonts_mut(|fonts| {
+        for size in 60..120u8 {
+            if fonts.font_image_size()[1] >= ATLAS_HEIGHT {
+                break;
+            }
+            let font = egui::FontId::proportional(size.into());
+            fonts.layout_no_wrap("ABCDEFGHIJKLMNOPQRSTUVWXYZ".into(), font, egui::Color32::WHITE);
+        }
+    });
+}
+
 /// Sets fonts once and the style whenever the theme changes.
 pub(super) fn install(
     mut contexts: EguiContexts,
     settings: Res<Settings>,
     mut installed: Local<Option<bool>>,
+    mut grown: Local<bool>,
     mut palette: ResMut<Palette>,
 ) -> Result {
+    let ctx = contexts.ctx_mut()?;
+    if !*grown && is_ready(ctx) {
+        grow_atlas(ctx);
+        *grown = true;
+    }
     if *installed == Some(settings.light) {
         return Ok(());
     }
-    let ctx = contexts.ctx_mut()?;
     if installed.is_none() {
         ctx.set_fonts(style::fonts());
     }
