@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use hairline::kernel::face::{Face, Side};
-use hairline::kernel::trim::{FillRule, TrimStructure, oracle};
+use hairline::kernel::trim::{BruteForce, FillRule, PackedSegments, TrimStructure, oracle};
 
 use crate::truth;
 
@@ -37,9 +37,16 @@ fn all_truth_points_are_classified_right() {
                 }
             };
             let lists = face.interval_lists();
+            let packed = PackedSegments::new(&face.pieces, &face.segments).expect("as in the face");
+            let brute = BruteForce::new(packed, FillRule::EvenOdd);
             let mut bad = [0; 4];
             for point in &points {
                 let p = face.domain.normalise(point.uv);
+                assert_eq!(
+                    brute.classify(p.as_vec2()),
+                    face.grid.classify(p.as_vec2()),
+                    "{name} face {id}: {p:?}"
+                );
                 let answers = [
                     face.grid.classify(p.as_vec2()),
                     lists.classify(p.as_vec2()),
