@@ -51,7 +51,8 @@ fn view_axes() -> Axes {
     return Axes(view.right.xyz, view.up.xyz, view.forward.xyz);
 }
 
-// A strip of 14 corners round the box, widened by a pixel so that rounding opens no seams. The faces
+// A strip of 14 corners round the box, widened by an eighth of a pixel so that the
+// snapping of corners to sub-pixels opens no seams. The faces
 // turned away from the viewer are drawn: they cover the pixel from inside the box and behind the near
 // plane as well.
 @vertex
@@ -67,7 +68,7 @@ fn vertex(@builtin(vertex_index) vertex_index: u32, @builtin(instance_index) ins
     let corner = select(vec3f(-1.0), vec3f(1.0), on);
     let centre = axes_apply(axes, cell.box_centre) + shift;
     let far = max(centre.z + cell.size, 0.0);
-    let half = vec3f(cell.box_x.w, cell.box_y.w, cell.box_z.w) + (view.pixel.x + view.pixel.y * far);
+    let half = vec3f(cell.box_x.w, cell.box_y.w, cell.box_z.w) + 0.125 * (view.pixel.x + view.pixel.y * far);
     let c = corner * half;
     let offset = c.x * cell.box_x.xyz + c.y * cell.box_y.xyz + c.z * cell.box_z.xyz;
     let p = centre + axes_apply(axes, offset);
