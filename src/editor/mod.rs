@@ -5,6 +5,12 @@
 //! upload, passes). `panels` read state and write messages; `tools` is the table of commands that menus, keys
 //! and toolbar are made from; `selection`, `camera` and `settings` serve them. `render` knows nothing of files.
 
+#![expect(
+    clippy::too_many_arguments,
+    clippy::type_complexity,
+    reason = "systems state what they read and write in their parameters"
+)]
+
 pub mod camera;
 pub mod derive;
 pub mod diagnostics;

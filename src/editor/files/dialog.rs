@@ -21,6 +21,7 @@ impl Default for OpenDialog {
             .add_file_filter_extensions("IGES", vec!["igs", "iges", "IGS", "IGES"])
             .default_file_filter("IGES")
             .default_size([760.0, 480.0])
+            .anchor(bevy_egui::egui::Align2::CENTER_CENTER, [0.0, 0.0])
             .allow_file_overwrite(false);
         Self { dialog, replace: true }
     }

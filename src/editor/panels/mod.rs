@@ -1,7 +1,7 @@
 //! Everything drawn with egui. Panels read state and write messages, nothing else.
 //!
-//! Wiring: one system, [`show`], in the egui pass, after the theme. It builds bars, side panels and overlays
-//! around and above the viewport, whose rectangle it leaves in [`Viewport`](super::viewport::Viewport).
+//! Wiring: one system, `show`, in the egui pass, after the theme. It builds bars, side panels and overlays
+//! around and above the viewport, whose rectangle it leaves in [`Viewport`].
 
 mod about;
 mod format;
@@ -26,7 +26,6 @@ use bevy_egui::{EguiContexts, EguiPostUpdateSet, EguiPrimaryContextPass, EguiRen
 pub use notice::{Notice, Notices};
 
 use super::camera::{CameraRequest, ViewCamera};
-use super::derive::SceneBounds;
 use super::diagnostics::{ProcessMemory, RenderFigures};
 use super::files::{Loading, OpenDialog, OpenFiles};
 use super::object::{AuthoredFace, DerivedFace, Model, Part, Scene, Shown};
@@ -75,7 +74,6 @@ pub(super) struct Reads<'w, 's> {
     pub settings: Res<'w, Settings>,
     pub palette: Res<'w, Palette>,
     pub scene: Res<'w, Scene>,
-    pub bounds: Res<'w, SceneBounds>,
     pub situation: Res<'w, CurrentSituation>,
     pub loading: Res<'w, Loading>,
     pub picker: Res<'w, Picker>,

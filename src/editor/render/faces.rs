@@ -48,11 +48,6 @@ impl RenderFaces {
         self.entities.get(slot as usize).copied().flatten()
     }
 
-    /// What the face in `entity` was derived from.
-    pub fn derived(&self, entity: Entity) -> Option<&Arc<Derived>> {
-        self.origins.get(&entity).map(|o| &o.derived)
-    }
-
     /// Whether faces wait to be packed.
     pub fn is_waiting(&self) -> bool {
         !self.waiting.is_empty()

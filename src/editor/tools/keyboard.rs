@@ -1,6 +1,6 @@
 //! From key presses to commands.
 
-use bevy::input::keyboard::KeyboardInput;
+use bevy::input::keyboard::{KeyboardFocusLost, KeyboardInput};
 use bevy::prelude::*;
 
 use super::command::{Action, COMMANDS, Command, CommandRequest, Situation};
@@ -38,31 +38,35 @@ pub(super) fn observe(
     };
 }
 
-/// Sends the command of each key pressed, if it is enabled now.
+/// Sends the command of each key pressed, if it is enabled now. Modifiers are followed message by message:
+/// in a slow frame Ctrl may be down and up again before it is over.
 pub(super) fn press(
     mut presses: MessageReader<KeyboardInput>,
-    held: Res<ButtonInput<KeyCode>>,
+    mut focus_lost: MessageReader<KeyboardFocusLost>,
+    mut held: Local<Modifiers>,
     pointer: Res<Pointer>,
     situation: Res<CurrentSituation>,
     mut requests: MessageWriter<CommandRequest>,
 ) {
-    let modifiers = Modifiers {
-        ctrl: held.any_pressed([
-            KeyCode::ControlLeft,
-            KeyCode::ControlRight,
-            KeyCode::SuperLeft,
-            KeyCode::SuperRight,
-        ]),
-        shift: held.any_pressed([KeyCode::ShiftLeft, KeyCode::ShiftRight]),
-        alt: held.any_pressed([KeyCode::AltLeft, KeyCode::AltRight]),
-    };
+    if focus_lost.read().count() > 0 {
+        *held = Modifiers::default();
+    }
     for press in presses.read() {
-        if !press.state.is_pressed() || press.repeat || pointer.keyboard_taken {
+        let down = press.state.is_pressed();
+        match press.key_code {
+            KeyCode::ControlLeft | KeyCode::ControlRight | KeyCode::SuperLeft | KeyCode::SuperRight => {
+                held.ctrl = down;
+            }
+            KeyCode::ShiftLeft | KeyCode::ShiftRight => held.shift = down,
+            KeyCode::AltLeft | KeyCode::AltRight => held.alt = down,
+            _ => {}
+        }
+        if !down || press.repeat || pointer.keyboard_taken {
             continue;
         }
         let command = COMMANDS
             .iter()
-            .find(|c| c.keys.iter().any(|k| k.matches(&press.logical_key, press.key_code, modifiers)));
+            .find(|c| c.keys.iter().any(|k| k.matches(&press.logical_key, press.key_code, *held)));
         let served =
             |c: &&Command| !pointer.sheet_open || matches!(c.action, Action::Shortcuts | Action::About);
         if let Some(command) = command.filter(served).filter(|c| (c.enabled)(&situation.0)) {
