@@ -9,7 +9,7 @@ use super::arguments::ClassifyArguments;
 use super::failure::{Failure, plain};
 use super::progress::Progress;
 use super::source;
-use crate::kernel::face::{Face, Side};
+use crate::kernel::face::Side;
 use crate::kernel::query::Locator;
 
 /// Answers standard input on standard output.
@@ -25,7 +25,7 @@ pub fn run(arguments: &ClassifyArguments) -> Result<(), Failure> {
     let mut ready: Vec<Option<Locator>> = vec![None; records.len()];
     answer(io::stdin().lock(), io::stdout().lock(), records.len(), |face, u, v| {
         if ready[face].is_none() {
-            let derived = Face::derive(&records[face]).map_err(|e| format!("face {}: {e}", face + 1))?;
+            let derived = records[face].derive().map_err(|e| format!("face {}: {e}", face + 1))?;
             ready[face] = Some(Locator::new(derived));
         }
         Ok(ready[face].as_ref().map_or(Side::Out, |locator| locator.classify_native(u, v)))

@@ -1,19 +1,18 @@
 //! A face ready to draw: its surface as Bezier patches over a parameter rectangle, and the trim loops as a
-//! parity grid over the same rectangle normalised to the unit square. Derived from a
-//! [`FaceRecord`], never stored.
+//! parity grid over the same rectangle normalised to the unit square. Derived from a surface and its loops,
+//! never stored.
 
 use glam::DVec2;
-use rayon::prelude::*;
 
 use super::bezier::BezierPatch;
 use super::nurbs::NurbsSurface;
 use super::trim::grid::GridOptions;
+use super::trim::loop_record::LoopRecord;
 use super::trim::loops::{self, TrimLoops};
 use super::trim::pack::{PackedSegments, TooManySegments};
 use super::trim::{FillRule, IntervalLists, ParityGrid, PieceList, SegmentSet, TrimStructure, oracle};
 pub use super::trim::{TrimRemark, UvRect};
 use super::view::Bounds;
-use crate::scene::records::{FaceRecord, ModelRecord};
 
 /// Where a point lies with respect to a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,20 +88,24 @@ pub const ON_TOLERANCE: f64 = 1e-7;
 pub(crate) const NEAR: f64 = 2e-6;
 
 impl Face {
-    /// Derives patches and trimming of one face.
+    /// Derives patches and trimming of `surface` within `loops` (none: all of it).
     ///
     /// # Errors
     /// See [`FaceError`].
-    pub fn derive(record: &FaceRecord) -> Result<Self, FaceError> {
-        Self::derive_with(record, &GridOptions::default())
+    pub fn derive(surface: &NurbsSurface, loops: &[LoopRecord]) -> Result<Self, FaceError> {
+        Self::derive_with(surface, loops, &GridOptions::default())
     }
 
     /// The same with choices for the grid.
     ///
     /// # Errors
     /// See [`FaceError`].
-    pub fn derive_with(record: &FaceRecord, options: &GridOptions) -> Result<Self, FaceError> {
-        let trim = loops::prepare(&record.surface, &record.loops);
+    pub fn derive_with(
+        surface: &NurbsSurface,
+        loops: &[LoopRecord],
+        options: &GridOptions,
+    ) -> Result<Self, FaceError> {
+        let trim = loops::prepare(surface, loops);
         let TrimLoops { domain, pieces, bezier, period, remarks } = trim;
         if !domain.has_area() {
             return Err(FaceError::EmptyDomain { domain });
@@ -110,24 +113,19 @@ impl Face {
         let segments = SegmentSet::new(&pieces);
         let packed = PackedSegments::new(&pieces, &segments)?;
         let grid = ParityGrid::new(&segments, &packed, options);
-        let patches = cover(&record.surface, &domain, period);
+        let patches = cover(surface, &domain, period);
         let patches: Vec<_> = patches.into_iter().filter(|p| is_needed(&grid, &domain, p)).collect();
         let bounds = patches.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
         let counts = PipelineCounts {
-            nurbs: record.loops.iter().map(|l| l.curves.len()).sum(),
+            nurbs: loops.iter().map(|l| l.curves.len()).sum(),
             bezier,
             monotone: pieces.pieces().len(),
             kept: segments.segments.iter().filter(|s| !s.is_horizontal()).count(),
             clipped: IntervalLists::count_clipped(&segments),
             entries: grid.entries.len(),
         };
-        let surface_domain = UvRect::of_surface(&record.surface);
+        let surface_domain = UvRect::of_surface(surface);
         Ok(Self { domain, surface_domain, period, patches, pieces, segments, grid, counts, remarks, bounds })
-    }
-
-    /// Derives all faces of a model, in parallel, in the model's order.
-    pub fn derive_all(model: &ModelRecord) -> Vec<Result<Self, FaceError>> {
-        model.faces.par_iter().map(Self::derive).collect()
     }
 
     /// P1's structure over the same segments, for its tables and as the baseline.

@@ -1,9 +1,12 @@
 //! The records of a model: parts, faces, trim loops, with names, colours, layers and units.
 //! Only records are truth; everything else (patches, trimming structures, GPU ranges) is derived.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::kernel::nurbs::{NurbsCurve2, NurbsSurface};
+use crate::kernel::face::{Face, FaceError};
+use crate::kernel::nurbs::NurbsSurface;
+pub use crate::kernel::trim::{LoopRecord, LoopRole};
 
 /// A whole model as read from one file or made by the program.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -72,23 +75,19 @@ pub struct SourceRecord {
     pub id: u64,
 }
 
-/// What a loop is said to be by its file. Not trusted for drawing: nesting decides.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum LoopRole {
-    /// Bounds the face from outside.
-    Outer,
-    /// Bounds a hole (or an island in a hole).
-    Inner,
-    /// The file does not say.
-    #[default]
-    Unknown,
+impl FaceRecord {
+    /// The face ready to classify, measure and draw.
+    ///
+    /// # Errors
+    /// See [`FaceError`].
+    pub fn derive(&self) -> Result<Face, FaceError> {
+        Face::derive(&self.surface, &self.loops)
+    }
 }
 
-/// One closed trim loop: curves end to start, in order, each running in the loop's direction.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct LoopRecord {
-    /// What the file says it is.
-    pub role: LoopRole,
-    /// Pcurves in native (u, v).
-    pub curves: Vec<NurbsCurve2>,
+impl ModelRecord {
+    /// All faces derived, in parallel, in the model's order.
+    pub fn derive_all(&self) -> Vec<Result<Face, FaceError>> {
+        self.faces.par_iter().map(FaceRecord::derive).collect()
+    }
 }

@@ -39,7 +39,7 @@ fn face(surface: NurbsSurface, loops: Vec<LoopRecord>) -> Face {
         loops,
         reversed: false,
     };
-    Face::derive(&record).expect("a valid face")
+    record.derive().expect("a valid face")
 }
 
 /// An open chain of lines.

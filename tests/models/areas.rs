@@ -30,7 +30,7 @@ fn each_face(mut check: impl FnMut(&str, &truth::Face, &Face)) -> bool {
     for name in truth::names(&folder) {
         for face in truth::model(&folder, &name).faces {
             let record = face.record().unwrap_or_else(|e| panic!("{name} face {}: {e}", face.id));
-            let derived = Face::derive(&record).unwrap_or_else(|e| panic!("{name} face {}: {e}", face.id));
+            let derived = record.derive().unwrap_or_else(|e| panic!("{name} face {}: {e}", face.id));
             check(&name, &face, &derived);
         }
     }

@@ -29,7 +29,7 @@ fn all_truth_points_are_classified_right() {
                     continue;
                 }
             };
-            let face = match Face::derive(&record) {
+            let face = match record.derive() {
                 Ok(face) => face,
                 Err(reason) => {
                     wrong.push(format!("{name} face {id}: {reason}"));

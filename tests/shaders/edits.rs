@@ -9,7 +9,7 @@ use hairline::kernel::view::{Camera, Projection};
 #[test]
 fn a_scene_edited_at_random_equals_one_packed_anew() {
     let model = hairline::scene::demo::model();
-    let faces: Vec<Face> = model.faces.iter().map(|r| Face::derive(r).expect("demo face")).collect();
+    let faces: Vec<Face> = model.faces.iter().map(|r| r.derive().expect("demo face")).collect();
     let shape = |k: usize| FaceShape::of(&faces[k], model.faces[k].colour, model.faces[k].reversed);
     let fresh = PackedScene::from_faces((0..faces.len()).map(shape));
     let mut edited = fresh.clone();

@@ -12,7 +12,7 @@ fn close_ups_of_the_demo_miss_nothing() {
     let mut closeups = Closeups::new(&faces, packed.bounds(), 7);
     let mut total = hairline::commands::bench::misses::Tally::default();
     for _ in 0..6 {
-        let camera = closeups.next();
+        let camera = closeups.camera();
         total.add(&compare(&packed, &closeups.caster, &faces, &camera, 64));
     }
     assert!(total.hits > 2000, "{total:?}");

@@ -9,7 +9,7 @@ use hairline::{reference, scene};
 
 pub fn demo() -> (Vec<Face>, PackedScene) {
     let model = scene::demo::model();
-    let faces: Vec<Face> = model.faces.iter().map(|r| Face::derive(r).expect("demo face")).collect();
+    let faces: Vec<Face> = model.faces.iter().map(|r| r.derive().expect("demo face")).collect();
     let shapes = faces.iter().zip(&model.faces).map(|(f, r)| FaceShape::of(f, r.colour, r.reversed));
     let packed = PackedScene::from_faces(shapes);
     (faces, packed)

@@ -4,11 +4,10 @@ use std::io::{self, Write};
 
 use super::shapes::Shape;
 use super::sheet::{Sheet, fastest, number};
-use crate::kernel::face::Face;
 use crate::kernel::trim::grid::GridOptions;
 use crate::kernel::trim::pack::PackedSegments;
 use crate::kernel::trim::{FillRule, IntervalLists, ParityGrid, PieceList, SegmentSet, TrimStructure};
-use crate::scene::records::ModelRecord;
+use crate::scene::records::{FaceRecord, ModelRecord};
 
 /// P1's structure is not built beyond this many clipped curves.
 const MOST_CLIPPED: usize = 500_000;
@@ -41,8 +40,8 @@ pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
     }
     writeln!(out, "{sheet}")?;
     for model in models {
-        let seconds = fastest(3, || model.faces.iter().map(Face::derive).filter(Result::is_ok).count());
-        let parallel = fastest(3, || Face::derive_all(model).len());
+        let seconds = fastest(3, || model.faces.iter().map(FaceRecord::derive).filter(Result::is_ok).count());
+        let parallel = fastest(3, || model.derive_all().len());
         writeln!(
             out,
             "{}: {} faces derived (patches, loops, grids) in {:.2} ms on one thread, {:.2} ms on all",

@@ -181,7 +181,7 @@ fn shape_sheet(shape: Shape, curves: usize) -> Sheet {
 /// Uniform points on every face of a model, face after face.
 fn model_sheet(model: &ModelRecord) -> Sheet {
     const PER_FACE: usize = 4096;
-    let faces: Vec<Face> = Face::derive_all(model).into_iter().flatten().collect();
+    let faces: Vec<Face> = model.derive_all().into_iter().flatten().collect();
     let segments: usize = faces.iter().map(|f| f.segments.segments.len()).sum();
     let title = format!("{}: {} faces, {segments} segments, uniform points, ns", model.name, faces.len());
     let columns =

@@ -209,7 +209,7 @@ pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
     let models = if models.is_empty() { &demo[..] } else { models };
     for model in models {
         let derived: Vec<(Face, Option<[f32; 3]>)> =
-            model.faces.iter().filter_map(|r| Some((Face::derive(r).ok()?, r.colour))).collect();
+            model.faces.iter().filter_map(|r| Some((r.derive().ok()?, r.colour))).collect();
         let scene = PackedScene::from_faces(derived.iter().map(|(f, c)| FaceShape::of(f, *c, false)));
         let faces: Vec<Face> = derived.into_iter().map(|(f, _)| f).collect();
         let mut closeups = Closeups::new(&faces, scene.bounds(), 1);

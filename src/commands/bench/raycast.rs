@@ -69,7 +69,7 @@ fn table(name: &str, models: &[ModelRecord], caster: &mut Caster, out: &mut impl
         ],
     );
     for model in models {
-        let faces: Vec<Face> = model.faces.iter().filter_map(|r| Face::derive(r).ok()).collect();
+        let faces: Vec<Face> = model.faces.iter().filter_map(|r| r.derive().ok()).collect();
         let mut scene = PackedScene::from_faces(faces.iter().map(|f| FaceShape::of(f, None, false)));
         let (direction, up) = StandardView::Top.directions();
         let projection = Projection::Perspective { fov_y: 0.6 };

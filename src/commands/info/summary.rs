@@ -165,7 +165,7 @@ struct Derived {
 
 impl Derived {
     fn new(record: &FaceRecord) -> Result<Self, String> {
-        let face = Face::derive(record).map_err(|e| e.to_string())?;
+        let face = record.derive().map_err(|e| e.to_string())?;
         let area = face_area(&face).value;
         Ok(Self { area: area.is_finite().then_some(area), bounds: face_bounds(&face), face })
     }

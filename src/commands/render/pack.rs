@@ -27,7 +27,7 @@ pub fn prepare(model: &ModelRecord, progress: &(dyn Fn(f64) + Sync)) -> Prepared
         .faces
         .par_iter()
         .map(|record| {
-            let face = Face::derive(record);
+            let face = record.derive();
             let so_far = 1 + done.fetch_add(1, Ordering::Relaxed);
             progress(so_far as f64 / model.faces.len() as f64);
             face

@@ -55,7 +55,7 @@ impl Derived {
     /// Derives everything from the record. Never fails: what went wrong is in [`Self::failure`].
     pub fn of(record: &FaceRecord) -> Self {
         let curves = record.loops.iter().map(|l| l.curves.len()).sum();
-        match Face::derive(record) {
+        match record.derive() {
             Ok(face) => {
                 let bounds = face.bounds;
                 Self { face: Some(Arc::new(face)), bounds, measures: OnceLock::new(), curves, failure: None }

@@ -61,7 +61,7 @@ mod tests {
     #[test]
     fn answers_as_the_face_does_on_every_demo_face() {
         for record in demo::model().faces.iter().filter(|f| !f.loops.is_empty()) {
-            let locator = Locator::new(Face::derive(record).expect("a valid face"));
+            let locator = Locator::new(record.derive().expect("a valid face"));
             let face = locator.face();
             for k in 0..600_u32 {
                 // Points all over and beyond the domain, and points on and beside the curves.

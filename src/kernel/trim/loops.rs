@@ -11,11 +11,11 @@ use glam::DVec2;
 use super::chain::{Chain, ChainLayer};
 use super::clip;
 use super::domain::{Periods, UvRect};
+use super::loop_record::{LoopRecord, LoopRole};
 use super::pieces::PieceList;
 use super::remark::TrimRemark;
 use crate::kernel::bezier::{BezierCurve2, MonotoneSplitter};
 use crate::kernel::nurbs::NurbsSurface;
-use crate::scene::records::{LoopRecord, LoopRole};
 
 /// Curves flatter than this, in units of the face's size, are lines.
 const STRAIGHT: f64 = 2e-9;
