@@ -46,29 +46,45 @@ pub fn bounds_of_ends(curves: &[NurbsCurve2]) -> Option<(DVec2, DVec2)> {
     })
 }
 
-/// Tight box (min, max) of `curves`: control points for straight pieces, extrema otherwise.
+/// Tight box (min, max) of `curves`: control points for straight pieces, extrema otherwise. Curves whose
+/// control points lie in the box of all ends add nothing and are not searched.
 pub fn bounds<'a>(curves: impl IntoIterator<Item = &'a NurbsCurve2>) -> Option<(DVec2, DVec2)> {
+    let mut curved = Vec::new();
     let mut result: Option<(DVec2, DVec2)> = None;
-    let mut grow = |p: DVec2| {
-        result = Some(result.map_or((p, p), |(a, b)| (a.min(p), b.max(p))));
+    let grow = |result: &mut Option<(DVec2, DVec2)>, p: DVec2| {
+        *result = Some(result.map_or((p, p), |(a, b)| (a.min(p), b.max(p))));
     };
     for curve in curves {
-        grow(start(curve));
-        grow(end(curve));
+        grow(&mut result, start(curve));
+        grow(&mut result, end(curve));
         if curve.degree() == 1 {
-            curve.points().iter().for_each(|p| grow(*p));
-            continue;
+            curve.points().iter().for_each(|p| grow(&mut result, *p));
+        } else {
+            curved.push(curve);
         }
-        for span in curve.knots().breaks().windows(2) {
+    }
+    for curve in curved {
+        let breaks = curve.knots().breaks();
+        for span in breaks.windows(2) {
+            let index = curve.knots().span(span[0]);
+            let hull = &curve.points()[index - curve.degree()..=index];
+            let within =
+                |p: &DVec2| result.is_some_and(|(a, b)| p.x >= a.x && p.y >= a.y && p.x <= b.x && p.y <= b.y);
+            if hull.iter().all(within) {
+                continue;
+            }
             const PARTS: usize = 12;
             let h = (span[1] - span[0]) / PARTS as f64;
             for k in 0..PARTS {
                 let a = span[0] + h * k as f64;
-                grow(curve.point(a));
+                grow(&mut result, curve.point(a));
                 for axis in 0..2 {
-                    extremum(curve, axis, a, a + h).map(&mut grow);
+                    if let Some(p) = extremum(curve, axis, a, a + h) {
+                        grow(&mut result, p);
+                    }
                 }
             }
+            grow(&mut result, curve.point(span[1]));
         }
     }
     result

@@ -67,7 +67,16 @@ impl<V: Vector> NurbsCurve<V> {
 
     /// Point at parameter `t` (clamped to no interval: outside the domain the end pieces go on).
     pub fn point(&self, t: f64) -> V {
-        self.derivatives(t, 0)[0]
+        let span = self.knots.span(t);
+        let basis = self.knots.basis(span, t, 0);
+        let first = span - self.degree();
+        let (mut a, mut w) = (V::ZERO, 0.0);
+        for (j, b) in basis[0].iter().enumerate() {
+            let weight = self.weights[first + j] * b;
+            a = a + self.points[first + j] * weight;
+            w += weight;
+        }
+        a * (1.0 / w)
     }
 
     /// Point and the first `order` derivatives at `t` (Piegl & Tiller, A3.2 and A4.2).
@@ -77,7 +86,8 @@ impl<V: Vector> NurbsCurve<V> {
         let first = span - self.degree();
         let mut result: Vec<V> = Vec::with_capacity(order + 1);
         let mut w = Vec::with_capacity(order + 1);
-        for (k, row) in basis.iter().enumerate() {
+        for k in 0..=order {
+            let row = &basis[k];
             let (mut a, mut wk) = (V::ZERO, 0.0);
             for (j, b) in row.iter().enumerate() {
                 let weight = self.weights[first + j] * b;

@@ -1,6 +1,7 @@
 //! Non-uniform rational B-splines of any degree: knot vectors, curves and surfaces.
 
-pub mod curve;
+pub mod basis;
+mod curve;
 pub mod decomposition;
 pub mod editing;
 pub mod elevation;
@@ -10,6 +11,7 @@ pub mod shape;
 mod spline_map;
 pub mod surface;
 
+pub use basis::Basis;
 pub use curve::{NurbsCurve, NurbsCurve2, NurbsCurve3};
 pub use editing::Direction;
 pub use knots::{KnotError, KnotVector};

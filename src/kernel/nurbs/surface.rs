@@ -100,21 +100,23 @@ impl NurbsSurface {
         SurfaceJet { point: s, du, dv, duu, duv, dvv }
     }
 
-    /// `result[k][l]`: numerator (divided by the weight for k = l = 0 only) and weight derivatives.
-    fn homogeneous(&self, u: f64, v: f64, order: usize) -> Vec<Vec<(DVec3, f64)>> {
+    /// `result[k][l]`: numerator (divided by the weight for k = l = 0 only) and weight derivatives,
+    /// for `k + l <= order <= 2`.
+    fn homogeneous(&self, u: f64, v: f64, order: usize) -> [[(DVec3, f64); 3]; 3] {
         let (pu, pv) = self.degrees();
         let (_, nv) = self.counts();
         let (su, sv) = (self.knots_u.span(u), self.knots_v.span(v));
         let (bu, bv) = (self.knots_u.basis(su, u, order), self.knots_v.basis(sv, v, order));
-        let mut result = vec![vec![(DVec3::ZERO, 0.0); order + 1]; order + 1];
+        let mut result = [[(DVec3::ZERO, 0.0); 3]; 3];
         for k in 0..=order {
             for l in 0..=order - k {
                 let (mut a, mut w) = (DVec3::ZERO, 0.0);
                 for (i, bi) in bu[k].iter().enumerate() {
-                    for (j, bj) in bv[l].iter().enumerate() {
-                        let index = (su - pu + i) * nv + sv - pv + j;
-                        let weight = bi * bj * self.weights[index];
-                        a += self.points[index] * weight;
+                    let first = (su - pu + i) * nv + sv - pv;
+                    let (points, weights) = (&self.points[first..], &self.weights[first..]);
+                    for ((bj, point), own) in bv[l].iter().zip(points).zip(weights) {
+                        let weight = bi * bj * own;
+                        a += *point * weight;
                         w += weight;
                     }
                 }
