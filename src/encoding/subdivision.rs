@@ -1,7 +1,7 @@
 //! Cuts Bezier patches into cells on which a quadratic model gives Newton's method safe starts.
 //!
 //! A piece is cut in half, in the direction that bends more, until its model is off by a small part of
-//! the piece's own width and its normal turns by less than [`NORMAL_LIMIT`]: then a ray meets it at most
+//! the piece's own width and its normal turns by less than `NORMAL_LIMIT`: then a ray meets it at most
 //! twice, and both meetings show in the model (Toth 1985 asks the same of Newton by intervals).
 
 use glam::DVec2;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use hairline::kernel::face::{Face, Side};
+use hairline::kernel::face::Side;
 use hairline::kernel::trim::{BruteForce, FillRule, PackedSegments, TrimStructure, oracle};
 
 use crate::truth;

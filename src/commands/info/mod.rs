@@ -1,6 +1,6 @@
 //! `hairline info`: what is in a model, for people and as JSON.
 //!
-//! [`summarise`] works the numbers out, [`text`] lays them out for reading.
+//! [`summarise`] works the numbers out, `text` lays them out for reading.
 
 mod summary;
 mod text;

@@ -1,6 +1,6 @@
 //! `hairline render`: a picture of a model as a PNG file.
 //!
-//! The model becomes a packed scene ([`prepare`]), the view a camera ([`framing`]), and either the graphics
+//! The model becomes a packed scene ([`prepare`]), the view a camera (`framing`), and either the graphics
 //! driver or the processor draws; both run the same algorithm on the same buffers.
 
 mod framing;

@@ -1,6 +1,6 @@
 //! Reading IGES (versions 4 to 5.3, fixed ASCII form) into [`ModelRecord`]s.
 //!
-//! The file is cut into lines and sections ([`physical`]), the directory is read ([`directory`]), and
+//! The file is cut into lines and sections (`physical`), the directory is read (`directory`), and
 //! every face-like entity that is not a part of another one becomes a face, in file order. Geometry
 //! is converted without loss wherever NURBS can hold it; lengths become millimetres; parameters are
 //! those that OpenCASCADE gives the same surfaces. A bad or unknown entity is skipped and remarked on

@@ -45,7 +45,7 @@ impl ParityGrid {
         *self = Self::new(set, packed, options);
     }
 
-    /// What [`classify`] reads.
+    /// What [`classify()`] reads.
     pub fn view(&self) -> GridView<'_> {
         GridView { header: self.header, cells: &self.cells, entries: &self.entries, data: &self.data }
     }
