@@ -2,7 +2,9 @@
 //
 // The ray is the meeting line of two planes through the pixel (Kajiya 1982). A step is taken from an
 // exact evaluation; the quadratic model tells how large the error after the step is, so that no
-// evaluation is spent on proving what is known.
+// evaluation is spent on proving what is known. Near silhouettes two zeros draw together and plain steps
+// reach whichever they like: there each step goes to the nearer (or farther) zero of the exact tangent
+// plane bent by the model's curvature, so that the two are never confused.
 
 // Model axes seen from the viewer.
 struct Axes {
@@ -36,6 +38,10 @@ struct Root {
     normal: vec3f,  // du x dv in view axes, unit
 }
 
+// Branches: Newton's own steps to the only zero nearby, or steps to the nearer or farther of two zeros.
+const ANY: u32 = 0u;
+const NEARER: u32 = 1u;
+const FARTHER: u32 = 2u;
 const MAX_STEPS: u32 = 8u;
 // Rounding of cell parameters: cells overlap by this much so that no ray passes between them.
 const HAIR: f32 = 4e-6;
@@ -74,11 +80,22 @@ fn model_z(piece: Piece, x: vec2f) -> f32 {
 fn piece_seeds(piece: Piece, conics: Conics) -> Seeds {
     let start = seeds(conics, piece.residual);
     let swap = start.count == 2u && model_z(piece, start.second) < model_z(piece, start.first);
-    return Seeds(
-        start.count,
-        select(start.first, start.second, swap),
-        select(start.second, start.first, swap),
-    );
+    let first = select(start.first, start.second, swap);
+    let second = select(start.second, start.first, swap);
+    return Seeds(start.count, first, select(first, second, start.count == 2u));
+}
+
+// What a step along the cell's curvature adds to the depth at a point whose derivatives are `slope`.
+fn depth_step(piece: Piece, slope: vec2f, d: vec2f) -> f32 {
+    return d.x * (slope.x + d.x * piece.m20.z + d.y * piece.m11.z) + d.y * (slope.y + d.y * piece.m02.z);
+}
+
+// The step to the nearer or farther of the two zeros that the exact tangents and the model's curvature
+// show from here.
+fn branch_step(local: Conics, piece: Piece, slope: vec2f, branch: u32, slack: f32) -> vec2f {
+    let both = conics_split(local, vec2f(0.0), slack);
+    let in_order = depth_step(piece, slope, both.first) <= depth_step(piece, slope, both.second);
+    return select(both.second, both.first, both.count == 1u || in_order == (branch == NEARER));
 }
 
 // The normal at a root from first derivatives; the model stands in where they vanish (poles).
@@ -94,8 +111,8 @@ fn root_normal(piece: Piece, ds: vec3f, dt: vec3f, x: vec2f) -> vec3f {
     return chosen / max(length(chosen), 1e-37);
 }
 
-// `pixel`: a pixel is pixel.x + pixel.y z wide at depth z.
-fn newton(ray: Ray, axes: Axes, piece: Piece, conics: Conics, pixel: vec2f, start: vec2f) -> Root {
+// `pixel`: a pixel is pixel.x + pixel.y z wide at depth z. `branch`: ANY, NEARER or FARTHER.
+fn newton(ray: Ray, axes: Axes, piece: Piece, conics: Conics, pixel: vec2f, start: vec2f, branch: u32) -> Root {
     var root = Root(false, 0u, start, 0.0, 0.0, vec3f(0.0, 0.0, -1.0));
     for (var step = 0u; step < MAX_STEPS; step++) {
         let p01 = 0.5 + 0.5 * root.x;
@@ -109,12 +126,17 @@ fn newton(ray: Ray, axes: Axes, piece: Piece, conics: Conics, pixel: vec2f, star
         let f = project(ray, at) - ray.offset;
         let fs = project(ray, ps);
         let ft = project(ray, pt);
-        let full = solve_2x2(fs, ft, -f);
-        let delta = clamp(full, vec2f(-0.5), vec2f(0.5));
-        let bend = conics_bilinear(conics, delta, delta);
-        let reach = abs(delta.x) + abs(delta.y);
-        let predicted = abs(bend.x) + abs(bend.y) + 12.0 * piece.residual * reach * reach;
         let tolerance = PIXEL_TOLERANCE * (pixel.x + pixel.y * abs(at.z)) + ROUNDING * piece.size;
+        let slope = vec2f(ps.z, pt.z);
+        let local = Conics(f, fs, ft, conics.c20, conics.c11, conics.c02);
+        var full = solve_2x2(fs, ft, -f);
+        if (branch != ANY) {
+            full = branch_step(local, piece, slope, branch, tolerance);
+        }
+        let delta = clamp(full, vec2f(-0.5), vec2f(0.5));
+        let miss = select(conics_value(local, delta), conics_bilinear(conics, delta, delta), branch == ANY);
+        let reach = abs(delta.x) + abs(delta.y);
+        let predicted = abs(miss.x) + abs(miss.y) + 12.0 * piece.residual * reach * reach;
         root.x += delta;
         if (max(abs(root.x.x), abs(root.x.y)) > 2.0) {
             break;
@@ -124,7 +146,7 @@ fn newton(ray: Ray, axes: Axes, piece: Piece, conics: Conics, pixel: vec2f, star
             let dt = pt + delta.x * piece.m11 + 2.0 * delta.y * piece.m02;
             let det = max(abs(fs.x * ft.y - fs.y * ft.x), 1e-37);
             root.converged = true;
-            root.z = at.z + delta.x * ps.z + delta.y * pt.z;
+            root.z = at.z + depth_step(piece, slope, delta);
             root.slack = min(0.02, 2.0 * predicted * (length(fs) + length(ft)) / det);
             root.normal = root_normal(piece, ds, dt, root.x);
             break;

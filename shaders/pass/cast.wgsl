@@ -121,10 +121,15 @@ fn fragment(in: Proxy) -> Visibility {
     var uv = vec2f(0.0);
     var normal = vec3f(0.0, 0.0, -1.0);
     var x = start.first;
-    for (var attempt = 0u; attempt < start.count; attempt++) {
-        let root = newton(ray, axes, piece, conics, view.pixel, x);
+    var branch = select(ANY, NEARER, start.count == 2u);
+    var going = true;
+    while (going) {
+        let root = newton(ray, axes, piece, conics, view.pixel, x, branch);
         evaluations += root.evaluations;
-        x = start.second;
+        // One zero and none found: the surface may have two where the model sees one.
+        going = select(branch == NEARER, !root.converged, branch == ANY);
+        x = select(start.first, start.second, branch == NEARER);
+        branch = select(NEARER, FARTHER, branch == NEARER);
         depth = (view.depth.x + view.depth.y * root.z) / (view.depth.z + view.depth.w * root.z);
         let on_cell = max(abs(root.x.x), abs(root.x.y)) <= 1.0 + HAIR + root.slack;
         if (root.converged && on_cell && depth > 0.0 && depth <= 1.0) {

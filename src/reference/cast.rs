@@ -4,7 +4,9 @@ use glam::{Vec2, Vec3};
 
 use super::pack::{pack_heat, pack_normal};
 use super::ray::Ray;
-use super::solve::{Axes, BELOW_ONE, HAIR, Piece, axes_apply, newton, piece_conics, piece_seeds};
+use super::solve::{
+    ANY, Axes, BELOW_ONE, FARTHER, HAIR, NEARER, Piece, axes_apply, newton, piece_conics, piece_seeds,
+};
 use crate::encoding::cell::Cell;
 use crate::encoding::view::{CAST_HEAT, CAST_TRIM, View};
 use crate::encoding::{FaceHeader, PackedScene};
@@ -71,11 +73,17 @@ pub fn cast(scene: &PackedScene, view: &View, cell: &Cell, piece: &Piece, pixel:
     let axes = view_axes(view);
     let (mut evaluations, mut counters) = (0, Counters::default());
     let (trim, heat) = (view.flags & CAST_TRIM != 0, view.flags & CAST_HEAT != 0);
+    let pixel_width = Vec2::from(view.pixel);
     let mut x = start.first;
-    for _ in 0..start.count {
-        let root = newton(scene.points.data(), ray, &axes, piece, &conics, Vec2::from(view.pixel), x);
+    let mut branch = if start.count == 2 { NEARER } else { ANY };
+    let mut going = start.count > 0;
+    while going {
+        let root = newton(scene.points.data(), ray, &axes, piece, &conics, pixel_width, x, branch);
         evaluations += root.evaluations;
-        x = start.second;
+        // One zero and none found: the surface may have two where the model sees one.
+        going = if branch == ANY { !root.converged } else { branch == NEARER };
+        x = if branch == NEARER { start.second } else { start.first };
+        branch = if branch == NEARER { FARTHER } else { NEARER };
         let depth = (view.depth[0] + view.depth[1] * root.z) / (view.depth[2] + view.depth[3] * root.z);
         let on_cell = root.x.x.abs().max(root.x.y.abs()) <= 1.0 + HAIR + root.slack;
         if !(root.converged && on_cell && depth > 0.0 && depth <= 1.0) {

@@ -30,11 +30,12 @@ const POLISH_STEPS: u32 = 5;
 /// How far outside its cell a seed is still followed.
 const REACH: f32 = 1.3;
 
-fn select<T>(no: T, yes: T, choose: bool) -> T {
+pub(super) fn select<T>(no: T, yes: T, choose: bool) -> T {
     if choose { yes } else { no }
 }
 
-fn conics_value(c: &Conics, x: Vec2) -> Vec2 {
+/// Both conics at `x`.
+pub fn conics_value(c: &Conics, x: Vec2) -> Vec2 {
     c.c00 + x.x * (c.c10 + x.x * c.c20 + x.y * c.c11) + x.y * (c.c01 + x.y * c.c02)
 }
 
@@ -60,7 +61,8 @@ pub fn solve_2x2(ds: Vec2, dt: Vec2, rhs: Vec2) -> Vec2 {
     Vec2::new(rhs.x * dt.y - rhs.y * dt.x, ds.x * rhs.y - ds.y * rhs.x) / safe
 }
 
-fn conics_split(c: &Conics, x: Vec2, slack: f32) -> Seeds {
+/// Roots along the weak direction through `x`; `slack` draws tangent or missing ones apart.
+pub fn conics_split(c: &Conics, x: Vec2, slack: f32) -> Seeds {
     let f = conics_value(c, x);
     let ds = conics_ds(c, x);
     let dt = conics_dt(c, x);

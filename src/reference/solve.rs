@@ -4,7 +4,7 @@ use glam::{Vec2, Vec3, Vec4Swizzles};
 
 use super::patch_jet::patch_jet;
 use super::ray::Ray;
-use super::seeds::{Conics, Seeds, conics_bilinear, seeds, solve_2x2};
+use super::seeds::{Conics, Seeds, conics_bilinear, conics_split, conics_value, seeds, select, solve_2x2};
 
 /// Model axes seen from the viewer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +49,13 @@ pub struct Root {
     pub normal: Vec3,
 }
 
+/// Newton's own steps: to the only zero nearby.
+pub const ANY: u32 = 0;
+/// Steps to the nearer of two zeros.
+pub const NEARER: u32 = 1;
+/// Steps to the farther of two zeros.
+pub const FARTHER: u32 = 2;
+
 const MAX_STEPS: u32 = 8;
 /// Rounding of cell parameters: cells overlap by this much so that no ray passes between them.
 pub const HAIR: f32 = 4e-6;
@@ -89,7 +96,20 @@ pub fn piece_seeds(piece: &Piece, conics: &Conics) -> Seeds {
     let start = seeds(conics, piece.residual);
     let swap = start.count == 2 && model_z(piece, start.second) < model_z(piece, start.first);
     let (first, second) = if swap { (start.second, start.first) } else { (start.first, start.second) };
-    Seeds { count: start.count, first, second }
+    Seeds { count: start.count, first, second: select(first, second, start.count == 2) }
+}
+
+/// What a step along the cell's curvature adds to the depth at a point whose derivatives are `slope`.
+fn depth_step(piece: &Piece, slope: Vec2, d: Vec2) -> f32 {
+    d.x * (slope.x + d.x * piece.m20.z + d.y * piece.m11.z) + d.y * (slope.y + d.y * piece.m02.z)
+}
+
+/// The step to the nearer or farther of the two zeros that the exact tangents and the model's curvature
+/// show from here.
+fn branch_step(local: &Conics, piece: &Piece, slope: Vec2, branch: u32, slack: f32) -> Vec2 {
+    let both = conics_split(local, Vec2::ZERO, slack);
+    let in_order = depth_step(piece, slope, both.first) <= depth_step(piece, slope, both.second);
+    select(both.second, both.first, both.count == 1 || in_order == (branch == NEARER))
 }
 
 fn root_normal(piece: &Piece, ds: Vec3, dt: Vec3, x: Vec2) -> Vec3 {
@@ -104,7 +124,8 @@ fn root_normal(piece: &Piece, ds: Vec3, dt: Vec3, x: Vec2) -> Vec3 {
     chosen / chosen.length().max(1e-37)
 }
 
-/// `pixel`: a pixel is `pixel.x + pixel.y z` wide at depth z.
+/// `pixel`: a pixel is `pixel.x + pixel.y z` wide at depth z. `branch`: [`ANY`], [`NEARER`] or [`FARTHER`].
+#[expect(clippy::too_many_arguments, reason = "as in the shader, plus the array that it binds")]
 pub fn newton(
     points: &[[f32; 4]],
     ray: Ray,
@@ -113,6 +134,7 @@ pub fn newton(
     conics: &Conics,
     pixel: Vec2,
     start: Vec2,
+    branch: u32,
 ) -> Root {
     let mut root =
         Root { converged: false, evaluations: 0, x: start, z: 0.0, slack: 0.0, normal: Vec3::NEG_Z };
@@ -129,12 +151,19 @@ pub fn newton(
         let f = project(ray, at) - ray.offset;
         let fs = project(ray, ps);
         let ft = project(ray, pt);
-        let full = solve_2x2(fs, ft, -f);
-        let delta = full.clamp(Vec2::splat(-0.5), Vec2::splat(0.5));
-        let bend = conics_bilinear(conics, delta, delta);
-        let reach = delta.x.abs() + delta.y.abs();
-        let predicted = bend.x.abs() + bend.y.abs() + 12.0 * piece.residual * reach * reach;
         let tolerance = PIXEL_TOLERANCE * (pixel.x + pixel.y * at.z.abs()) + ROUNDING * piece.size;
+        let slope = Vec2::new(ps.z, pt.z);
+        let local = Conics { c00: f, c10: fs, c01: ft, ..*conics };
+        let full = if branch == ANY {
+            solve_2x2(fs, ft, -f)
+        } else {
+            branch_step(&local, piece, slope, branch, tolerance)
+        };
+        let delta = full.clamp(Vec2::splat(-0.5), Vec2::splat(0.5));
+        let miss =
+            if branch == ANY { conics_bilinear(conics, delta, delta) } else { conics_value(&local, delta) };
+        let reach = delta.x.abs() + delta.y.abs();
+        let predicted = miss.x.abs() + miss.y.abs() + 12.0 * piece.residual * reach * reach;
         root.x += delta;
         if root.x.x.abs().max(root.x.y.abs()) > 2.0 {
             break;
@@ -144,7 +173,7 @@ pub fn newton(
             let dt = pt + delta.x * piece.m11 + 2.0 * delta.y * piece.m02;
             let det = (fs.x * ft.y - fs.y * ft.x).abs().max(1e-37);
             root.converged = true;
-            root.z = at.z + delta.x * ps.z + delta.y * pt.z;
+            root.z = at.z + depth_step(piece, slope, delta);
             root.slack = (2.0 * predicted * (fs.length() + ft.length()) / det).min(0.02);
             root.normal = root_normal(piece, ds, dt, root.x);
             break;
