@@ -8,9 +8,9 @@ use glam::DVec2;
 use crate::kernel::nurbs::{KnotVector, NurbsCurve2};
 
 /// Halvings of one piece at most; beyond it the deviation reached is reported.
-const DEPTH: u32 = 10;
+const DEPTH: u32 = 16;
 /// Pieces of one curve at most.
-const MOST_PIECES: usize = 300;
+const MOST_PIECES: usize = 1000;
 /// Halving must at least do this to the deviation, or it is not the length of the piece that is wrong.
 const GAIN: f64 = 0.7;
 /// Halvings without gain that are forgiven.
@@ -34,6 +34,10 @@ struct Halvings {
     before: f64,
 }
 
+impl Halvings {
+    const NONE: Self = Self { depth: 0, stalls: 0, before: f64::INFINITY };
+}
+
 /// A curve to fit.
 pub trait Target {
     /// The function at `t`, on the branch next to `near`. `side` says from which side derivatives are
@@ -51,58 +55,46 @@ pub fn fit(
     near: Option<DVec2>,
     tolerance: f64,
 ) -> Option<(NurbsCurve2, f64)> {
-    let mut knots = Vec::new();
-    let mut points: Vec<DVec2> = Vec::new();
-    let mut worst = 0.0_f64;
     let mut near = near;
     let mut checks = Vec::new();
+    let mut pieces = Vec::new();
     for span in breaks.windows(2) {
-        let first = target.sample(span[0], near, 1);
-        let last = target.sample_towards(first.uv, span[0], span[1]);
-        let mut stack = vec![(
-            (span[0], first),
-            (span[1], last),
-            Halvings { depth: 0, stalls: 0, before: f64::INFINITY },
-        )];
-        while let Some(((a, start), (b, end), history)) = stack.pop() {
-            let h = b - a;
-            let piece = [
-                start.uv,
-                start.uv + start.derivative * (h / 3.0),
-                end.uv - end.derivative * (h / 3.0),
-                end.uv,
-            ];
-            let mut deviation = 0.0_f64;
-            let middle = 0.5 * (a + b);
-            let mut at_middle = None;
-            for s in [0.25, 0.5, 0.75] {
-                let guess = cubic(&piece, s);
-                let exact = target.sample(a + s * h, Some(guess), 1);
-                deviation = deviation.max(target.distance(guess, exact.uv));
-                checks.push(exact.uv);
-                if s == 0.5 {
-                    at_middle = Some(exact);
-                }
-            }
-            let stalls = history.stalls + u32::from(deviation > GAIN * history.before);
-            let hopeful = history.depth < DEPTH && stalls <= STALLS && points.len() < 3 * MOST_PIECES;
-            let split = deviation > tolerance && hopeful && middle > a && middle < b;
-            if let (true, Some(exact)) = (split || history.depth == 0, at_middle) {
-                let next = Halvings { depth: history.depth + 1, stalls, before: deviation };
-                stack.push(((middle, exact), (b, end), next));
-                stack.push(((a, start), (middle, exact), next));
+        let start = target.sample(span[0], near, 1);
+        let end = target.sample_towards(start.uv, span[0], span[1]);
+        near = Some(end.uv);
+        pieces.push(Piece { a: span[0], b: span[1], start, end, history: Halvings::NONE, settled: None });
+    }
+    // All pieces are halved once before any is halved twice: should their number run out, no part of the
+    // curve is left much coarser than the rest.
+    while pieces.iter().any(|p| p.settled.is_none()) {
+        let mut count = pieces.len();
+        let mut next = Vec::with_capacity(2 * count);
+        for mut piece in pieces {
+            if piece.settled.is_some() {
+                next.push(piece);
                 continue;
             }
-            worst = worst.max(deviation);
-            if points.is_empty() {
-                points.push(piece[0]);
-                knots.extend([a; 4]);
-            } else {
-                knots.extend([a; 3]);
+            match piece.refine(target, tolerance, count < MOST_PIECES, &mut checks) {
+                Some(halves) => {
+                    count += 1;
+                    next.extend(halves);
+                }
+                None => next.push(piece),
             }
-            points.extend(&piece[1..]);
-            near = Some(end.uv);
         }
+        pieces = next;
+    }
+    let worst = pieces.iter().filter_map(|p| p.settled).fold(0.0, f64::max);
+    let mut knots = Vec::with_capacity(3 * pieces.len() + 5);
+    let mut points = Vec::with_capacity(3 * pieces.len() + 1);
+    for piece in &pieces {
+        let nodes = piece.nodes();
+        if points.is_empty() {
+            points.push(nodes[0]);
+            knots.push(piece.a);
+        }
+        knots.extend([piece.a; 3]);
+        points.extend(&nodes[1..]);
     }
     let (start, end) = (*points.first()?, *points.last()?);
     knots.extend([*breaks.last()?; 4]);
@@ -112,6 +104,63 @@ pub fn fit(
     let knots = KnotVector::new(3, knots).ok()?;
     let weights = vec![1.0; points.len()];
     Some((NurbsCurve2::new(knots, points, weights).ok()?, worst))
+}
+
+/// One cubic of the fit.
+struct Piece {
+    a: f64,
+    b: f64,
+    start: Sample,
+    end: Sample,
+    history: Halvings,
+    /// Its deviation, once it is not to be halved any more.
+    settled: Option<f64>,
+}
+
+impl Piece {
+    /// Bezier control points.
+    fn nodes(&self) -> [DVec2; 4] {
+        let third = (self.b - self.a) / 3.0;
+        [
+            self.start.uv,
+            self.start.uv + self.start.derivative * third,
+            self.end.uv - self.end.derivative * third,
+            self.end.uv,
+        ]
+    }
+
+    /// Measures the piece: its halves when it needs halving and `may_split`, else it is settled.
+    fn refine(
+        &mut self,
+        target: &mut dyn Target,
+        tolerance: f64,
+        may_split: bool,
+        checks: &mut Vec<DVec2>,
+    ) -> Option<[Self; 2]> {
+        let (h, nodes) = (self.b - self.a, self.nodes());
+        let mut deviation = 0.0_f64;
+        let mut at_middle = self.start;
+        for s in [0.25, 0.5, 0.75] {
+            let guess = cubic(&nodes, s);
+            let exact = target.sample(self.a + s * h, Some(guess), 1);
+            deviation = deviation.max(target.distance(guess, exact.uv));
+            checks.push(exact.uv);
+            if s == 0.5 {
+                at_middle = exact;
+            }
+        }
+        let Halvings { depth, stalls, before } = self.history;
+        let stalls = stalls + u32::from(deviation > GAIN * before);
+        let middle = self.a + 0.5 * h;
+        let hopeful = depth < DEPTH && stalls <= STALLS && may_split && middle > self.a && middle < self.b;
+        if !(hopeful && (depth == 0 || deviation > tolerance)) {
+            self.settled = Some(deviation);
+            return None;
+        }
+        let history = Halvings { depth: depth + 1, stalls, before: deviation };
+        let half = |a, b, start, end| Self { a, b, start, end, history, settled: None };
+        Some([half(self.a, middle, self.start, at_middle), half(middle, self.b, at_middle, self.end)])
+    }
 }
 
 impl dyn Target + '_ {

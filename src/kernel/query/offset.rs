@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use crate::kernel::nurbs::{KnotVector, NurbsSurface};
 
 /// Spans per direction at most.
-const MOST_SPANS: usize = 64;
+const MOST_SPANS: usize = 128;
 
 /// `surface` moved by `distance` along `du x dv`, to `tolerance` (model units): the surface, over the
 /// same parameters, and the largest error found. `None` where the normal vanishes.
