@@ -1,121 +1,72 @@
 //! Fat bounds of a curve: how far a part of it can leave the part's chord.
 //!
-//! With chord end points A, B at parameters a < b, C - chord = -(integral of a positive kernel times C''),
-//! at most (b-a)^2 / 8 in total weight, and B - A = (b-a) times a mean of C'. The cross product is linear in both, so
-//! `cross(C - A, B - A) / (b-a)^3` lies between the extremes of `-cross(C''(x), C'(y)) / 8` over all
-//! x, y, and 0. For polynomials the control vectors of C'' and C' give rigorous extremes.
+//! With P = (x, y, w) the homogeneous curve and A, C, B its points at parameters a < t < b, `cross(C - A, B - A)` is
+//! det(P(a), P(t), P(b)) / (w(a) w(t) w(b)). Divided differences take the powers out of the determinant: it is
+//! (t-a) (b-t) (b-a) det(P(a), P\[a,t\], P\[a,t,b\]), where P\[a,t\] is a mean of P' and P\[a,t,b\] one of P'' / 2. A
+//! determinant is linear in each row, so control vectors give rigorous extremes, for rational curves
+//! too: `cross / (b-a)^3` lies between the extremes of `det(P_i, P'_j, P''_k) / 8`, with 0, over the
+//! cube of the smallest weight. For quadratics that determinant is one number.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::kernel::bezier::bernstein::{MAX_COUNT, binomial_row};
 
 /// Bounds of a record's curve. `words` are its words from 5 on (see the layout), exactly as stored.
 pub fn bounds(words: &[f32], degree: usize, rational: bool, ends: [f32; 4]) -> (f64, f64) {
-    let net = Net::new(words, degree, rational, ends);
-    let (mut first, mut second) = (Vectors::default(), Vectors::default());
-    if rational {
-        let samples = 4 + degree;
-        for k in 0..=samples {
-            let (c1, c2) = net.derivatives(k as f64 / samples as f64);
-            first.push(c1);
-            second.push(c2);
-        }
-    } else {
-        net.control_derivatives(&mut first, &mut second);
+    let d = DVec2::new(f64::from(ends[2] - ends[0]), f64::from(ends[3] - ends[1]));
+    if degree == 2 {
+        let q = DVec2::new(f64::from(words[0]), f64::from(words[1]));
+        let least_weight = if rational { (0.5 + 0.25 * f64::from(words[2])).min(1.0) } else { 1.0 };
+        let bound = 0.25 * q.perp_dot(d) / cube(least_weight);
+        return (bound.min(0.0), bound.max(0.0));
+    }
+    let mut net = [DVec3::ZERO; MAX_COUNT];
+    let net = &mut net[..=degree];
+    net[0] = DVec3::Z;
+    net[degree] = d.extend(1.0);
+    let stride = if rational { 3 } else { 2 };
+    let binomials = &binomial_row(degree)[1..];
+    for ((p, word), binomial) in net[1..degree].iter_mut().zip(words.chunks_exact(stride)).zip(binomials) {
+        let w = if rational { f64::from(word[2]) } else { *binomial };
+        *p = DVec3::new(f64::from(word[0]), f64::from(word[1]), w) / *binomial;
     }
     let (mut least, mut most) = (0.0f64, 0.0f64);
-    for x in second.as_slice() {
-        for y in first.as_slice() {
-            let k = x.perp_dot(*y);
-            least = least.min(k);
-            most = most.max(k);
-        }
-    }
-    let margin = if rational { RATIONAL_MARGIN } else { 1.0 };
-    (-most / 8.0 * margin, -least / 8.0 * margin)
-}
-
-/// What sampling may miss between the samples of a rational curve's derivatives.
-const RATIONAL_MARGIN: f64 = 1.25;
-
-/// Control points and weights relative to the lower end, on the stack.
-struct Net {
-    points: [(DVec2, f64); MAX_COUNT],
-    degree: usize,
-}
-
-/// A short list of vectors on the stack.
-struct Vectors {
-    items: [DVec2; 2 * MAX_COUNT + 6],
-    count: usize,
-}
-
-impl Default for Vectors {
-    fn default() -> Self {
-        Self { items: [DVec2::ZERO; 2 * MAX_COUNT + 6], count: 0 }
-    }
-}
-
-impl Vectors {
-    fn push(&mut self, v: DVec2) {
-        self.items[self.count] = v;
-        self.count += 1;
-    }
-
-    fn as_slice(&self) -> &[DVec2] {
-        &self.items[..self.count]
-    }
-}
-
-impl Net {
-    fn new(words: &[f32], degree: usize, rational: bool, ends: [f32; 4]) -> Self {
-        let d = DVec2::new(f64::from(ends[2] - ends[0]), f64::from(ends[3] - ends[1]));
-        let mut points = [(DVec2::ZERO, 1.0); MAX_COUNT];
-        let stride = if rational { 3 } else { 2 };
-        for (i, word) in words.chunks_exact(stride).take(degree - 1).enumerate() {
-            let binomial = binomial_row(degree)[i + 1];
-            let q = DVec2::new(f64::from(word[0]), f64::from(word[1])) / binomial;
-            points[i + 1] = (q, if rational { f64::from(word[2]) / binomial } else { 1.0 });
-        }
-        points[degree] = (d, 1.0);
-        Self { points, degree }
-    }
-
-    /// Control vectors of the first and second derivative of a polynomial.
-    fn control_derivatives(&self, first: &mut Vectors, second: &mut Vectors) {
-        let n = self.degree as f64;
-        for pair in self.points[..=self.degree].windows(2) {
-            first.push((pair[1].0 - pair[0].0) * n);
-        }
-        for pair in first.as_slice().windows(2) {
-            second.push((pair[1] - pair[0]) * (n - 1.0));
-        }
-    }
-
-    /// First and second derivative at `t` by de Casteljau's scheme on homogeneous points.
-    fn derivatives(&self, t: f64) -> (DVec2, DVec2) {
-        let n = self.degree;
-        let mut a = self.points;
-        let step = |a: &mut [(DVec2, f64)], count: usize| {
-            for i in 0..count {
-                a[i] = (a[i].0.lerp(a[i + 1].0, t), a[i].1 + (a[i + 1].1 - a[i].1) * t);
+    for second in net.windows(3) {
+        let second = second[0] - 2.0 * second[1] + second[2];
+        for first in net.windows(2) {
+            let normal = (first[1] - first[0]).cross(second);
+            // Polynomials: all rows of points give the same, their derivatives having no w.
+            for p in if rational { &net[..] } else { &net[..1] } {
+                let value = p.dot(normal);
+                least = least.min(value);
+                most = most.max(value);
             }
-        };
-        for k in (2..n).rev() {
-            step(&mut a, k + 1);
         }
-        let degree = n as f64;
-        let factor = degree * (degree - 1.0);
-        let x2 = (a[2].0 - a[1].0 * 2.0 + a[0].0) * factor;
-        let w2 = (a[2].1 - a[1].1 * 2.0 + a[0].1) * factor;
-        step(&mut a, 2);
-        let (x1, w1) = ((a[1].0 - a[0].0) * degree, (a[1].1 - a[0].1) * degree);
-        step(&mut a, 1);
-        let (x, w) = a[0];
-        let c = x / w;
-        let c1 = (x1 - c * w1) / w;
-        (c1, (x2 - c1 * (2.0 * w1) - c * w2) / w)
     }
+    let factor = (degree * degree * (degree - 1)) as f64 / 8.0 / cube(least_weight(net));
+    (least * factor, most * factor)
+}
+
+fn cube(x: f64) -> f64 {
+    x * x * x
+}
+
+/// A lower bound of the weight function: the smallest control weight of its two halves.
+fn least_weight(net: &[DVec3]) -> f64 {
+    let mut weights = [1.0; MAX_COUNT];
+    let weights = &mut weights[..net.len()];
+    for (weight, p) in weights.iter_mut().zip(net) {
+        *weight = p.z;
+    }
+    // In place, the ends of the shrinking rows are the control weights of the halves.
+    let mut least = 1.0f64;
+    for count in (1..weights.len()).rev() {
+        for i in 0..count {
+            weights[i] = 0.5 * (weights[i] + weights[i + 1]);
+        }
+        least = least.min(weights[0]).min(weights[count - 1]);
+    }
+    least
 }
 
 /// Both bounds in one word: 16 upper bits each, rounded away from 0.
