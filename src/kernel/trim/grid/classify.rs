@@ -1,10 +1,13 @@
-//! Classification by the parity grid: the statements that WGSL repeats one for one.
+//! Classification by the parity grid. The twin in WGSL finds the same values with plain comparisons; here the four
+//! comparisons of a point with the ends of a segment are one mask, so that few branches depend on data.
 //!
 //! Only f32 additions, multiplications, comparisons (and two divisions for rational curves),
 //! bounded loops, no dynamic indexing of local arrays.
 
+use glam::Vec4;
+
 use super::layout::*;
-use crate::kernel::trim::record::{crossing_in_box, least, load, most};
+use crate::kernel::trim::record::{crossing_in_box, load};
 use crate::kernel::trim::tally::Tally;
 use crate::kernel::trim::{BELOW_ONE, BORDER};
 
@@ -44,24 +47,61 @@ fn winding_number(grid: &GridView, u: f32, v: f32, tally: &mut impl Tally) -> i3
     let mut winding = cell_winding(cell);
     let first = cell >> CELL_SHIFT;
     let end = grid.cells[index as usize + 1] >> CELL_SHIFT;
-    for entry in &grid.entries[(header.entry_base + first) as usize..(header.entry_base + end) as usize] {
-        let entry = *entry;
-        let address = (header.data_base + (entry >> ENTRY_SHIFT)) as usize;
-        let ends = load(grid.data, address);
-        // Three comparisons tell all but points in the box; joined, they cost one branch that can go wrong.
-        let below = v < ends[1];
-        let in_rows = !below & (v < ends[3]);
-        let left = u < least(ends[0], ends[2]);
-        let in_box = in_rows & !left & (u < most(ends[0], ends[2]));
-        let bit = (entry >> u32::from(!below)) & 1;
-        let value = if in_box {
-            u32::from(crossing_in_box(grid.data, address, ends, entry, u, v, tally))
-        } else if in_rows {
-            u32::from(left)
-        } else {
-            bit
-        };
-        winding += value as i32 * (1 - ((entry & ENTRY_DOWN) >> 1) as i32);
+    // Most lists are no longer than one stride. Going through them at a fixed pace, with nothing for what
+    // is beyond the end, leaves no branch that depends on the length and goes wrong at every other point.
+    let point = Vec4::new(u, v, u, v);
+    let mut at = first;
+    while at < end {
+        for step in 0..STRIDE {
+            winding += entry_winding(grid, at + step, end, point, tally);
+        }
+        at += STRIDE;
     }
     winding
+}
+
+/// Entries asked without a branch between them.
+const STRIDE: u32 = 2;
+
+/// What entry number `at` adds to the winding number of `point` (u, v, u, v); nothing from `end` on.
+#[inline(always)]
+fn entry_winding(grid: &GridView, at: u32, end: u32, point: Vec4, tally: &mut impl Tally) -> i32 {
+    let header = &grid.header;
+    let listed = ((at.wrapping_sub(end) as i32) >> 31) as u32;
+    let entry = grid.entries.get((header.entry_base + at) as usize).copied().unwrap_or(0) & listed;
+    let address = (header.data_base + (entry >> ENTRY_SHIFT)) as usize;
+    let ends = load(grid.data, address);
+    // Bits: u < u0, v < v0, u < u1, v < v1.
+    let less = point.cmplt(Vec4::from_array(ends)).bitmask();
+    if (IN_BOX >> less) & listed & 1 != 0 {
+        let value = crossing_in_box(grid.data, address, ends, entry, point.x, point.y, tally);
+        return i32::from(value) * sign(entry);
+    }
+    let values = (entry & (ENTRY_LO | ENTRY_HI)) | ALWAYS;
+    let value = (values >> ((CHOICE >> (2 * less)) & 3)) & listed & 1;
+    value as i32 * sign(entry)
+}
+
+/// Comparisons that put a point into the box of a segment, one bit each: v0 <= v < v1, u between the ends.
+const IN_BOX: u32 = 1 << 0b1001 | 1 << 0b1100;
+/// Bit 3 of the values that [`CHOICE`] chooses from; bit 2 is 0.
+const ALWAYS: u32 = 8;
+/// For each outcome of the comparisons two bits that choose a value: 0 `lo`, 1 `hi`, 2 never, 3 always.
+const CHOICE: u32 = {
+    let (mut choices, mut less) = (0, 0);
+    while less < 16 {
+        let choice = match (less & 2 != 0, less & 8 != 0) {
+            (true, _) => 0,
+            (false, false) => 1,
+            (false, true) => 2 + (less == 0b1101) as u32,
+        };
+        choices |= choice << (2 * less);
+        less += 1;
+    }
+    choices
+};
+
+/// What crossing an entry counts.
+fn sign(entry: u32) -> i32 {
+    1 - ((entry & ENTRY_DOWN) >> 1) as i32
 }
