@@ -102,6 +102,9 @@ impl PieceList {
     pub fn from_loops(loops: &[Vec<crate::kernel::bezier::BezierCurve2>], straight: f64) -> Self {
         let mut list = Self::default();
         let mut splitter = crate::kernel::bezier::MonotoneSplitter::default();
+        let given: usize = loops.iter().flatten().map(|c| c.points.len()).sum();
+        list.points.reserve(2 * given);
+        list.weights.reserve(2 * given);
         for curves in loops {
             for (number, curve) in curves.iter().enumerate() {
                 let source = Some(number as u32);

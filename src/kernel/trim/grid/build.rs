@@ -16,7 +16,7 @@ use crate::kernel::trim::segment::SegmentSet;
 /// Choices of the build. The answers do not depend on them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GridOptions {
-    /// Cells for each segment; `None`: 4 for less than 64 segments, else 3.
+    /// Cells for each segment; `None`: 4, which keeps plain cubics within 60 bytes each.
     pub cells_per_segment: Option<f64>,
     /// Cells with more entries than this are refined.
     pub crowded: u32,
@@ -43,6 +43,8 @@ pub struct Built {
     pub entries: Vec<u32>,
 }
 
+/// Cells for each segment unless told otherwise.
+const CELLS_PER_SEGMENT: f64 = 4.0;
 /// Most cells along one side of the outer block.
 const MAX_SIDE: f64 = 4096.0;
 
@@ -52,7 +54,7 @@ pub fn build(set: &SegmentSet, packed: &PackedSegments, options: &GridOptions) -
     if count == 0 {
         return Built::default();
     }
-    let per_segment = options.cells_per_segment.unwrap_or(if count < 64 { 4.0 } else { 3.0 });
+    let per_segment = options.cells_per_segment.unwrap_or(CELLS_PER_SEGMENT);
     let side = (per_segment * count as f64).sqrt().round().clamp(1.0, MAX_SIDE) as u32;
     let frame = Frame::outer(side, side);
     let header = GridHeader {

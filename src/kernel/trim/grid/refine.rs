@@ -80,10 +80,18 @@ impl<'a> Refiner<'a> {
             return None;
         }
         let child = frame.child(cell % frame.columns, cell / frame.columns, k);
+        let cells = (k * k) as usize;
+        // Each entry will be listed about once in every row that it passes: tells strands early.
+        let passed = |e: &Listed| {
+            let rows = span::rows(&child, &self.set.segments[e.segment as usize]);
+            (rows.1 - rows.0 + 1).max(0) as usize
+        };
+        if cells + entries.iter().map(passed).sum::<usize>() > WORDS_PER_ENTRY * count {
+            return None;
+        }
         let members: Vec<Member> =
             entries.iter().map(|e| Member::new(&child, e, self.set, self.packed)).collect();
         let listed: usize = members.iter().map(|m| m.cells(child.columns)).sum();
-        let cells = (k * k) as usize;
         let thins_out = 2 * listed <= count * cells && cells + listed <= WORDS_PER_ENTRY * count;
         thins_out.then(|| (child.clone(), self.child_lists(&child, entries, &members, winding)))
     }

@@ -13,6 +13,9 @@ const MARGIN: f64 = 2e-7;
 /// Rounding of the f32 evaluation, as a fraction of the segment's box.
 const EVALUATION: f64 = 2e-6;
 
+/// Width of a band that is narrow beside a cell, in cells: less lists fewer segments for nothing and costs more to build.
+const NARROW: f64 = 0.25;
+
 /// The columns of one row that a segment may touch: left of `first` it is entirely to the right of a
 /// cell, right of `last` entirely to the left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,11 +94,11 @@ pub fn append(
     debug_assert_eq!(spans.len() - start, ranges.len());
 }
 
-/// How many parts make the band (`deviation` wide for the whole curve) about as narrow as a cell.
+/// How many parts make the band (`deviation` wide for the whole curve) narrow beside a cell.
 fn part_count(deviation: f64, width: f64, cell: f64) -> u32 {
     let mut parts = 1;
     let mut deviation = deviation.min(2.0 * width);
-    while deviation > cell && parts < 64 {
+    while deviation > NARROW * cell && parts < 64 {
         parts *= 2;
         deviation *= 0.25;
     }
