@@ -1,9 +1,12 @@
 //! Tight boxes of trimmed faces against closed forms.
 
+use std::f64::consts::TAU;
+
 use glam::{DMat3, DVec2, DVec3};
 use hairline::kernel::bezier::{BezierCurve2, BezierPatch};
 use hairline::kernel::face::UvRect;
 use hairline::kernel::nurbs::NurbsSurface;
+use hairline::kernel::primitives;
 use hairline::kernel::query::{Boundary, Sheet, trimmed_bounds};
 use hairline::kernel::trim::PieceList;
 use hairline::kernel::view::Bounds;
@@ -94,5 +97,18 @@ fn random_patches_are_held_and_touched() {
         }
         let off = (found.min - sampled.min).abs().max((found.max - sampled.max).abs()).max_element();
         assert!(off < 2e-3 * size, "{found:?} {sampled:?}");
+    }
+}
+
+#[test]
+fn a_peak_on_the_cut_between_two_parts_is_found() {
+    // A ring whose patches meet beside the extremes in v and are cut right through them in u.
+    let (major, minor) = (10.0, 3.0);
+    for start in [3.927, 4.712, 5.883] {
+        let centre = DVec3::new(major, 0.0, 0.0);
+        let tube = primitives::arc(centre, DVec3::X * minor, DVec3::Y * minor, start, start + TAU).unwrap();
+        let ring = primitives::revolution(&tube, DVec3::ZERO, DVec3::Y, 0.0, TAU).unwrap();
+        let reach = DVec3::new(major + minor, minor, major + minor);
+        assert_bounds(bounds(&ring, &[]), -reach, reach);
     }
 }

@@ -3,6 +3,7 @@
 
 mod areas;
 mod cli;
+mod fixtures;
 mod iges_truth;
 mod import;
 mod mutations;

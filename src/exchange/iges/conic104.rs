@@ -41,10 +41,10 @@ pub(crate) fn read(args: &mut Args, _form: i32, scale: f64) -> Result<NurbsCurve
         let x0 = (lb * y0 * y0 - f) / da;
         let vertex = axis * x0 + across * y0;
         let bend = -lb / da;
-        let t = |p: DVec2| p.dot(across) - y0;
-        return ordered(t(start), t(end), |s, e| {
-            parabola(place(vertex), vector(axis) * bend, vector(across), s, e)
-        });
+        // The parameter grows from start to end, as in OpenCASCADE.
+        let (from, to) = (start.dot(across) - y0, end.dot(across) - y0);
+        let (across, from, to) = if to < from { (-across, -from, -to) } else { (across, from, to) };
+        return Ok(parabola(place(vertex), vector(axis) * bend, vector(across), from, to)?);
     }
     let (xa, xb) = (-da / (2.0 * la), -db / (2.0 * lb));
     let centre = axis * xa + across * xb;
@@ -58,6 +58,9 @@ pub(crate) fn read(args: &mut Args, _form: i32, scale: f64) -> Result<NurbsCurve
         } else {
             (across, -axis, rb.sqrt(), ra.sqrt())
         };
+        // Of its two ends, at the one further along x (or y).
+        let away = if long.x.abs() > 1e-9 { long.x < 0.0 } else { long.y < 0.0 };
+        let (long, short) = if away { (-long, -short) } else { (long, short) };
         let angle =
             |p: DVec2| ((p - centre).dot(short) / s).atan2((p - centre).dot(long) / r).rem_euclid(TAU);
         let from = angle(start);

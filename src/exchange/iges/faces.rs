@@ -20,6 +20,8 @@ use crate::scene::records::{FaceRecord, LengthUnit, ModelRecord, SourceRecord};
 const CHUNK: usize = 256;
 /// Parts of a face's size that its loops may deviate by in conversion.
 const FIT: f64 = 1e-7;
+/// Largest size of a surface in millimetres: squares of it must fit single precision.
+const LARGEST: f64 = 1e18;
 
 /// Reads all faces in file order.
 pub(crate) fn read(
@@ -92,7 +94,11 @@ fn face(reader: &mut Reader<'_, '_>, root: &Root) -> Result<FaceRecord, EntityEr
     for problem in winding::close(&surface.carrier, &mut loops) {
         reader.remark(root.index, Severity::Warning, problem);
     }
-    let tolerance = FIT * size(&surface.carrier, &loops);
+    let size = size(&surface.carrier, &loops);
+    if !(size <= LARGEST) {
+        return Err(EntityError::Degenerate(format!("its size of {size:.3e} mm is beyond {LARGEST:e} mm")));
+    }
+    let tolerance = FIT * size;
     let (nurbs, loops) = finish(surface.carrier, surface.sweep.as_ref(), loops, tolerance)
         .map_err(|e| EntityError::Degenerate(e.to_string()))?;
     let own_colour = appearance::colour(reader, entry.colour);

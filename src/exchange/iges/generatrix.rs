@@ -17,7 +17,8 @@ pub(crate) struct Generatrix {
 }
 
 /// Reads the curve that `pointer` means. Lines run over their length (IGES: 0 to 1), arcs over their
-/// angles, splines over their knots; composites over the sum of their pieces.
+/// angles, polylines over the length of their chords, splines over their knots; composites over the sum
+/// of their pieces.
 pub(crate) fn read(reader: &mut Reader<'_, '_>, pointer: i64) -> Result<Generatrix, EntityError> {
     let kind = reader.kind(pointer, "curve")?;
     let mut pieces = Vec::new();
@@ -26,6 +27,8 @@ pub(crate) fn read(reader: &mut Reader<'_, '_>, pointer: i64) -> Result<Generatr
     for piece in &mut pieces {
         if piece.degree() == 1 && piece.points().len() == 2 && piece.domain() == (0.0, 1.0) {
             *piece = over_length(piece)?;
+        } else if kind == 106 {
+            *piece = over_chords(piece)?;
         }
     }
     let curve = if pieces.len() == 1 { pieces.swap_remove(0) } else { joined(&pieces)? };
@@ -68,6 +71,19 @@ fn line_length(line: &NurbsCurve3) -> f64 {
 fn over_length(line: &NurbsCurve3) -> Result<NurbsCurve3, EntityError> {
     let knots = KnotVector::bezier(1, 0.0, line_length(line)).map_err(EntityError::knots("t"))?;
     Ok(NurbsCurve3::new(knots, line.points().to_vec(), line.weights().to_vec())?)
+}
+
+/// A polyline with its knots at the lengths of its chords added up.
+fn over_chords(polyline: &NurbsCurve3) -> Result<NurbsCurve3, EntityError> {
+    let mut at = 0.0;
+    let mut knots = vec![0.0, 0.0];
+    for chord in polyline.points().windows(2) {
+        at += (chord[1] - chord[0]).length();
+        knots.push(at);
+    }
+    knots.push(at);
+    let knots = KnotVector::new(1, knots).map_err(EntityError::knots("t"))?;
+    Ok(NurbsCurve3::new(knots, polyline.points().to_vec(), polyline.weights().to_vec())?)
 }
 
 /// The pieces as one curve of one degree; each piece keeps the length of its domain.

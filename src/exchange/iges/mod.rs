@@ -96,6 +96,7 @@ pub fn read_with(
         *report.entities.entry(entry.kind.to_string()).or_insert(0) += 1;
     }
     report.remarks.extend(file_remarks(&store));
+    report.remarks.extend(unread_kinds(&store));
     let model = faces::read(&store, &mut report, progress)?;
     Ok((model, report))
 }
@@ -138,4 +139,36 @@ fn file_remarks(store: &Store<'_>) -> Vec<Remark> {
         remark(Severity::Note, 0, message);
     }
     remarks
+}
+
+/// One note for each entity type that this reader does not look at, from the first entity of the type.
+fn unread_kinds(store: &Store<'_>) -> Vec<Remark> {
+    let mut first: std::collections::BTreeMap<u32, (usize, usize)> = std::collections::BTreeMap::new();
+    for (index, entry) in store.entries.iter().enumerate() {
+        if !is_expected(entry.kind) {
+            first.entry(entry.kind).or_insert((index, 0)).1 += 1;
+        }
+    }
+    let mut remarks: Vec<Remark> = first
+        .into_iter()
+        .map(|(kind, (index, count))| Remark {
+            severity: Severity::Note,
+            entity: kind.to_string(),
+            id: Store::number(index),
+            line: store.entries[index].line,
+            message: format!("entities of type {kind} are not read ({count} in the file, this is the first)"),
+        })
+        .collect();
+    remarks.sort_by_key(|r| r.id);
+    remarks
+}
+
+/// Types that are read, and those that never hold part of a face: points, annotation, drawings,
+/// attributes and properties.
+fn is_expected(kind: u32) -> bool {
+    matches!(kind,
+        0 | 100 | 102 | 104 | 106 | 108 | 110 | 112 | 114 | 116 | 118 | 120 | 122 | 123 | 124 | 126 | 128
+        | 140..=144 | 184 | 186 | 190 | 192 | 194 | 196 | 198 | 308 | 314 | 402 | 406 | 408 | 430
+        | 502 | 504 | 508 | 510 | 514 // read
+        | 132 | 202..=230 | 302 | 304 | 306 | 310 | 312 | 316 | 320 | 322 | 404 | 410 | 412 | 414 | 416 | 420 | 422)
 }

@@ -4,12 +4,11 @@ use super::error::EntityError;
 use super::generatrix;
 use super::parameter::Args;
 use super::store::Reader;
-use crate::exchange::boundary::parameter_map::{AxisMap, UvMap};
+use crate::exchange::boundary::parameter_map::UvMap;
 use crate::kernel::nurbs::{KnotVector, NurbsCurve3, NurbsSurface};
 use crate::kernel::primitives::ruled;
 
-/// The surface over the first curve's parameters in u and 0 to 1 in v; both of IGES' parameters run from
-/// 0 to 1.
+/// The surface, both of whose parameters run from 0 to 1 (in IGES, in OpenCASCADE and here).
 ///
 /// Form 0 asks for equal relative arc length, form 1 for equal relative parameters. Like other
 /// readers this one pairs by parameter in both; for lines and arcs there is no difference.
@@ -23,37 +22,30 @@ pub(crate) fn read(
     let first = generatrix::read(reader, first)?.profile.spline()?;
     let second = generatrix::read(reader, second)?.profile.spline()?;
     let second = if backwards { second.reversed() } else { second };
-    let (start, end) = first.domain();
     let (a, b) = compatible(&first, &second)?;
-    let surface = ruled(&a, &b)?;
-    let u = AxisMap { scale: end - start, offset: start, arc: None };
-    Ok((surface, UvMap::new(u, AxisMap::IDENTITY)))
+    Ok((ruled(&a, &b)?, UvMap::IDENTITY))
 }
 
-/// Both curves over the first one's domain, with one degree and one knot vector.
+/// Both curves over 0 to 1, with one degree and one knot vector.
 fn compatible(first: &NurbsCurve3, second: &NurbsCurve3) -> Result<(NurbsCurve3, NurbsCurve3), EntityError> {
     let degree = first.degree().max(second.degree());
-    let first = first.elevated(degree - first.degree())?.clamped();
-    let second = second.elevated(degree - second.degree())?.clamped();
-    let ((a, b), (c, d)) = (first.domain(), second.domain());
-    // The clamped ends of both are set, not computed, so that they agree to the last bit.
-    let knots = second
-        .knots()
-        .as_slice()
-        .iter()
-        .map(|k| {
-            if *k == c {
-                a
-            } else if *k == d {
-                b
-            } else {
-                a + (k - c) * ((b - a) / (d - c))
-            }
-        })
-        .collect();
-    let knots = KnotVector::new(degree, knots).map_err(EntityError::knots("t"))?;
-    let second = NurbsCurve3::new(knots, second.points().to_vec(), second.weights().to_vec())?;
+    let (first, second) = (over_unit(first, degree)?, over_unit(second, degree)?);
     Ok((first.inserted(&missing(&first, &second))?, second.inserted(&missing(&second, &first))?))
+}
+
+/// The curve with `degree` and clamped ends over 0 to 1.
+fn over_unit(curve: &NurbsCurve3, degree: usize) -> Result<NurbsCurve3, EntityError> {
+    let curve = curve.elevated(degree - curve.degree())?.clamped();
+    let (start, end) = curve.domain();
+    // The ends are set, not computed, so that those of two curves agree to the last bit.
+    let unit = |k: &f64| match *k {
+        k if k <= start => 0.0,
+        k if k >= end => 1.0,
+        k => (k - start) / (end - start),
+    };
+    let knots = curve.knots().as_slice().iter().map(unit).collect();
+    let knots = KnotVector::new(degree, knots).map_err(EntityError::knots("t"))?;
+    Ok(NurbsCurve3::new(knots, curve.points().to_vec(), curve.weights().to_vec())?)
 }
 
 /// Knots of `other` that `curve` lacks, with multiplicity.

@@ -237,8 +237,9 @@ fn lay(
         let projection = project(carrier, curve, near, tolerance)
             .ok_or_else(|| EntityError::Degenerate("the boundary cannot be laid on the surface".into()))?;
         off = off.max(projection.distance);
-        let short = start(&projection.curve) == end(&projection.curve) && projection.curve.degree() == 1;
-        if !short {
+        // A curve that shrinks to one point (at a pole, say) bounds nothing.
+        let points = projection.curve.points();
+        if points.iter().any(|p| *p != points[0]) {
             pieces.push(projection.curve);
         }
     }

@@ -3,8 +3,9 @@
 //! A coordinate is largest on the boundary, at a critical point inside, or on a crease between patches. Boundary
 //! curves and patch lines are sampled and refined by golden sections; patches whose control hull reaches
 //! further are bisected, and parts dropped whose hull no longer does or on which the coordinate has a slope of
-//! one sign (no critical point; walking uphill leads out of the part). What is dropped exceeds the box by
-//! [`SLACK`] times its diagonal at most.
+//! one sign (no critical point; walking uphill leads out of the part). Slopes that vanish on the edge of a
+//! bisected part prove nothing: the peak may lie on the cut. What is dropped exceeds the box by [`SLACK`]
+//! times its diagonal at most.
 
 use std::collections::VecDeque;
 
@@ -132,16 +133,17 @@ impl Search<'_> {
         let (us, vs) = (self.sheet.u_lines().len(), self.sheet.v_lines().len());
         for (i, j) in (1..us).flat_map(|i| (1..vs).map(move |j| (i - 1, j - 1))) {
             if let Some(patch) = self.sheet.cell(i, j) {
-                self.consider(patch, &mut parts);
+                self.consider(patch, true, &mut parts);
             }
         }
         for _ in 0..BUDGET {
             let Some(part) = parts.pop_front() else { break };
-            part.quarters().iter().for_each(|quarter| self.consider(quarter, &mut parts));
+            part.quarters().iter().for_each(|quarter| self.consider(quarter, false, &mut parts));
         }
     }
 
-    fn consider(&mut self, part: &BezierPatch, parts: &mut VecDeque<BezierPatch>) {
+    /// Drops `part` or keeps it to be bisected. The edges of a `whole` patch have been searched before.
+    fn consider(&mut self, part: &BezierPatch, whole: bool, parts: &mut VecDeque<BezierPatch>) {
         let hull = part.bounds();
         let slack = SLACK * self.best.diagonal();
         let above = hull.max.cmpgt(self.best.max + slack);
@@ -150,7 +152,7 @@ impl Search<'_> {
             return;
         }
         let (us, vs) = part.slopes();
-        let flat = DVec3::max(one_sided(&us), one_sided(&vs));
+        let flat = DVec3::max(one_sided(&us, whole), one_sided(&vs, whole));
         let open = (above | below) & flat.cmplt(DVec3::splat(0.5));
         if !open.any() {
             return;
@@ -164,12 +166,18 @@ impl Search<'_> {
     }
 }
 
-/// 1 in each coordinate in which no two slopes have opposite signs, up to rounding; else 0.
-fn one_sided(slopes: &[DVec3]) -> DVec3 {
-    let (low, high) = slopes.iter().fold((DVec3::ZERO, DVec3::ZERO), |(l, h), s| (l.min(*s), h.max(*s)));
-    let largest = low.abs().max(high.abs()).max_element();
-    let zero = 1e-13 * largest;
-    let one = |axis: usize| f64::from(u8::from(low[axis] >= -zero || high[axis] <= zero));
+/// 1 in each coordinate in which the slopes show that there is no peak inside, else 0: none has the
+/// opposite sign, up to rounding, and unless `may_touch` none vanishes or all do.
+fn one_sided(slopes: &[DVec3], may_touch: bool) -> DVec3 {
+    let (low, high) =
+        slopes.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), s| (l.min(*s), h.max(*s)));
+    let zero = 1e-13 * low.abs().max(high.abs()).max_element();
+    let one = |axis: usize| {
+        let (low, high) = (low[axis], high[axis]);
+        let level = low >= -zero && high <= zero;
+        let room = if may_touch { -zero } else { zero };
+        f64::from(u8::from(level || low >= room || high <= -room))
+    };
     DVec3::new(one(0), one(1), one(2))
 }
 
