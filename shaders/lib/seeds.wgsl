@@ -19,6 +19,8 @@ struct Conics {
 const POLISH_STEPS: u32 = 5u;
 // How far outside its cell a seed is still followed.
 const REACH: f32 = 1.3;
+// Within how much of a cell a fold counts as near.
+const FOLD: f32 = 0.25;
 
 // At most two roots in cell parameters.
 struct Seeds {
@@ -42,6 +44,15 @@ fn conics_dt(c: Conics, x: vec2f) -> vec2f {
 // The quadratic part between two directions; for a = b the part itself.
 fn conics_bilinear(c: Conics, a: vec2f, b: vec2f) -> vec2f {
     return a.x * b.x * c.c20 + 0.5 * (a.x * b.y + a.y * b.x) * c.c11 + a.y * b.y * c.c02;
+}
+
+// Whether the Jacobian at `x` may vanish within a part of a cell: a second root may be as near.
+fn conics_fold(c: Conics, x: vec2f) -> bool {
+    let ds = conics_ds(c, x);
+    let dt = conics_dt(c, x);
+    let det = ds.x * dt.y - ds.y * dt.x;
+    let bend = length(c.c20) + length(c.c11) + length(c.c02);
+    return abs(det) < FOLD * bend * (length(ds) + length(dt));
 }
 
 fn solve_2x2(ds: vec2f, dt: vec2f, rhs: vec2f) -> vec2f {
@@ -105,12 +116,16 @@ struct Candidate {
     value: f32,
 }
 
-// A few Newton steps, each kept only if it brings the conics closer to zero and halved if not.
-fn conics_polish(c: Conics, start: vec2f) -> Candidate {
+// A few Newton steps, each kept only if it brings the conics closer to zero and halved if not, until they
+// are as close as `enough`.
+fn conics_polish(c: Conics, start: vec2f, enough: f32) -> Candidate {
     var x = clamp(start, vec2f(-3.0), vec2f(3.0));
     var value = length(conics_value(c, x));
     var damping = 1.0;
     for (var k = 0u; k < POLISH_STEPS; k++) {
+        if (value <= enough) {
+            break;
+        }
         let step = solve_2x2(conics_ds(c, x), conics_dt(c, x), -conics_value(c, x));
         let next = clamp(x + damping * clamp(step, vec2f(-1.0), vec2f(1.0)), vec2f(-3.0), vec2f(3.0));
         let next_value = length(conics_value(c, next));
@@ -147,9 +162,17 @@ fn seeds(c: Conics, slack: f32) -> Seeds {
     let middle = select(rough.first, 0.5 * (rough.first + rough.second), both);
     let fine = conics_split(c, clamp(middle, vec2f(-1.5), vec2f(1.5)), slack);
     let near = 4.0 * slack + 1e-5 * (length(c.c10) + length(c.c01));
+    let far = max(abs(fine.second.x), abs(fine.second.y)) > 4.0;
     var found = Seeds(0u, vec2f(0.0), vec2f(0.0));
-    found = seeds_add(found, conics_polish(c, fine.first), near);
-    found = seeds_add(found, conics_polish(c, fine.second), near);
-    found = seeds_add(found, conics_polish(c, rough.first), near);
-    return seeds_add(found, conics_polish(c, vec2f(0.0)), near);
+    // A loop, since software drivers skip what a loop leaves out but not what a condition does.
+    for (var attempt = 0u; attempt < 4u; attempt++) {
+        if (found.count > 0u && (attempt > 1u || far)) {
+            break;
+        }
+        let early = select(fine.second, fine.first, attempt == 0u);
+        let late = select(vec2f(0.0), rough.first, attempt == 2u);
+        let start = select(late, early, attempt < 2u);
+        found = seeds_add(found, conics_polish(c, start, 0.25 * near), near);
+    }
+    return found;
 }

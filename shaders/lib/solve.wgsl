@@ -76,13 +76,15 @@ fn model_z(piece: Piece, x: vec2f) -> f32 {
         x.y * (piece.m01.z + x.y * piece.m02.z);
 }
 
-// Where to start: the model's roots on or just beside the cell, nearest first.
+// Where to start: the model's roots on or just beside the cell, nearest first. Where the model sees one
+// that may stand for two, both starts are that one.
 fn piece_seeds(piece: Piece, conics: Conics) -> Seeds {
     let start = seeds(conics, piece.residual);
     let swap = start.count == 2u && model_z(piece, start.second) < model_z(piece, start.first);
     let first = select(start.first, start.second, swap);
     let second = select(start.second, start.first, swap);
-    return Seeds(start.count, first, select(first, second, start.count == 2u));
+    let twofold = start.count == 1u && conics_fold(conics, start.first);
+    return Seeds(select(start.count, 2u, twofold), first, select(first, second, start.count == 2u));
 }
 
 // What a step along the cell's curvature adds to the depth at a point whose derivatives are `slope`.

@@ -5,6 +5,9 @@
 @group(0) @binding(2) var depths: texture_depth_2d;
 @group(0) @binding(3) var<storage, read> faces: array<FaceHeader>;
 
+// Wider lines are cut to this.
+const MOST_EDGE_PIXELS: i32 = 4;
+
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     let corner = vec2f(f32((index << 1u) & 2u), f32(index & 2u));
@@ -35,7 +38,7 @@ fn ray_at(pixel: vec2f) -> Ray {
 fn edge_to(here: vec4u, z: f32, p: vec3f, n: vec3f, pixel: vec2i, step: vec2i) -> bool {
     let there = words_at(pixel + step);
     if (there.x == 0u) {
-        return any(clamped(pixel + step) == pixel + step);
+        return all(clamped(pixel + step) == pixel + step);
     }
     let z_there = z_at(pixel + step);
     if (there.x != here.x) {
@@ -48,8 +51,23 @@ fn edge_to(here: vec4u, z: f32, p: vec3f, n: vec3f, pixel: vec2i, step: vec2i) -
     let along = vec3f(ray.slope, 1.0);
     let down = dot(n, along);
     let plane_z = dot(n, p - vec3f(ray.offset, 0.0)) / select(down, -1e-6, abs(down) < 1e-6);
-    let width = look.pixel.x + look.pixel.y * abs(z);
+    let width = f32(abs(step.x) + abs(step.y)) * (look.pixel.x + look.pixel.y * abs(z));
     return z_there - max(plane_z, z) > 12.0 * width && abs(down) > 1e-6 && z_there - z > 12.0 * width;
+}
+
+// How much of the pixel a line covers that runs along an edge, on the side that draws it.
+fn edge_cover(here: vec4u, z: f32, p: vec3f, n: vec3f, pixel: vec2i) -> f32 {
+    for (var k = 1; k <= MOST_EDGE_PIXELS; k++) {
+        let cover = clamp(look.edge_width - f32(k - 1), 0.0, 1.0);
+        if (cover <= 0.0) {
+            break;
+        }
+        if (edge_to(here, z, p, n, pixel, vec2i(k, 0)) || edge_to(here, z, p, n, pixel, vec2i(-k, 0)) ||
+            edge_to(here, z, p, n, pixel, vec2i(0, k)) || edge_to(here, z, p, n, pixel, vec2i(0, -k))) {
+            return cover;
+        }
+    }
+    return 0.0;
 }
 
 @fragment
@@ -89,9 +107,7 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     }
     var colour = lit(base, n, eye);
     if (look.edges != 0u) {
-        let edge = edge_to(here, z, p, n, pixel, vec2i(1, 0)) || edge_to(here, z, p, n, pixel, vec2i(-1, 0)) ||
-            edge_to(here, z, p, n, pixel, vec2i(0, 1)) || edge_to(here, z, p, n, pixel, vec2i(0, -1));
-        colour = mix(colour, look.edge.rgb, select(0.0, look.edge.a, edge));
+        colour = mix(colour, look.edge.rgb, look.edge.a * edge_cover(here, z, p, n, pixel));
     }
     return vec4f(colour, 1.0);
 }

@@ -4,6 +4,8 @@ use super::renderer::{Presentation, Renderer, Sample, bounding_sphere};
 use super::{Context, GpuError};
 use crate::encoding::options::jitter;
 use crate::encoding::{DepthRange, DisplayMode, Image, PackedScene, RenderOptions};
+use crate::reference::cast::Fragment;
+use crate::reference::visibility::VisibilityBuffer;
 
 /// Draws `scene` on `context`.
 ///
@@ -57,6 +59,30 @@ pub fn render_image(
     queue.submit([encoder.finish()]);
     let rgba = read_texture(context, &target)?;
     Ok(Image { width: width.max(1), height: height.max(1), rgba })
+}
+
+/// Casts one sample with an up-to-date `renderer` and reads the visibility buffer back.
+///
+/// # Errors
+/// The device is lost.
+pub fn visibility(
+    context: &Context,
+    renderer: &mut Renderer,
+    sample: &Sample,
+) -> Result<VisibilityBuffer, GpuError> {
+    let mut encoder = context.device.create_command_encoder(&Default::default());
+    renderer.cast(&context.device, &context.queue, &mut encoder, sample);
+    context.queue.submit([encoder.finish()]);
+    context.wait()?;
+    let words = read_texture(context, &renderer.targets().visibility)?;
+    let depths = read_texture(context, &renderer.targets().depth)?;
+    let pixels = words.chunks_exact(16).zip(depths.chunks_exact(4));
+    let fragments = pixels.map(|(words, depth)| Fragment {
+        words: bytemuck::pod_read_unaligned(words),
+        depth: bytemuck::pod_read_unaligned(depth),
+    });
+    let [width, height] = renderer.targets().size;
+    Ok(VisibilityBuffer { width, height, fragments: fragments.collect() })
 }
 
 /// Copies a texture to the CPU, rows packed.

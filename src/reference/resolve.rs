@@ -13,6 +13,8 @@ const MODE_SHADED: u32 = 0;
 const MODE_FACES: u32 = 1;
 const MODE_UV: u32 = 2;
 const MODE_HEAT: u32 = 3;
+/// Wider lines are cut to this.
+const MOST_EDGE_PIXELS: i32 = 4;
 
 fn z_of(look: &Look, fragment: Fragment) -> f32 {
     let d = fragment.depth;
@@ -52,7 +54,23 @@ fn edge_to(look: &Look, buffer: &VisibilityBuffer, place: &Place, step: IVec2) -
     let down = place.n.dot(along);
     let safe = if down.abs() < 1e-6 { -1e-6 } else { down };
     let plane_z = place.n.dot(place.p - ray.offset.extend(0.0)) / safe;
+    let width = (step.x.abs() + step.y.abs()) as f32 * width;
     z_there - plane_z.max(z) > 12.0 * width && down.abs() > 1e-6 && z_there - z > 12.0 * width
+}
+
+/// How much of the pixel a line covers that runs along an edge, on the side that draws it.
+fn edge_cover(look: &Look, buffer: &VisibilityBuffer, place: &Place) -> f32 {
+    for k in 1..=MOST_EDGE_PIXELS {
+        let cover = (look.edge_width - (k - 1) as f32).clamp(0.0, 1.0);
+        if cover <= 0.0 {
+            break;
+        }
+        let steps = [IVec2::X, IVec2::NEG_X, IVec2::Y, IVec2::NEG_Y];
+        if steps.into_iter().any(|step| edge_to(look, buffer, place, k * step)) {
+            return cover;
+        }
+    }
+    0.0
 }
 
 /// The premultiplied linear colour of one pixel; transparent where there is no surface.
@@ -90,10 +108,8 @@ pub fn resolve(look: &Look, faces: &[FaceHeader], buffer: &VisibilityBuffer, x: 
     let mut colour = lit(base, n, eye);
     if look.edges != 0 {
         let place = Place { pixel: IVec2::new(x, y), here, z, p, n };
-        let steps = [IVec2::X, IVec2::NEG_X, IVec2::Y, IVec2::NEG_Y];
-        if steps.into_iter().any(|step| edge_to(look, buffer, &place, step)) {
-            colour = tint(colour, look.edge);
-        }
+        let [red, green, blue, strength] = look.edge;
+        colour = tint(colour, [red, green, blue, strength * edge_cover(look, buffer, &place)]);
     }
     colour.extend(1.0)
 }

@@ -29,6 +29,8 @@ pub struct Seeds {
 const POLISH_STEPS: u32 = 5;
 /// How far outside its cell a seed is still followed.
 const REACH: f32 = 1.3;
+/// Within how much of a cell a fold counts as near.
+const FOLD: f32 = 0.25;
 
 pub(super) fn select<T>(no: T, yes: T, choose: bool) -> T {
     if choose { yes } else { no }
@@ -50,6 +52,14 @@ fn conics_dt(c: &Conics, x: Vec2) -> Vec2 {
 /// The quadratic part between two directions; for a = b the part itself.
 pub fn conics_bilinear(c: &Conics, a: Vec2, b: Vec2) -> Vec2 {
     a.x * b.x * c.c20 + 0.5 * (a.x * b.y + a.y * b.x) * c.c11 + a.y * b.y * c.c02
+}
+
+/// Whether the Jacobian at `x` may vanish within a part of a cell: a second root may be as near.
+pub fn conics_fold(c: &Conics, x: Vec2) -> bool {
+    let (ds, dt) = (conics_ds(c, x), conics_dt(c, x));
+    let det = ds.x * dt.y - ds.y * dt.x;
+    let bend = c.c20.length() + c.c11.length() + c.c02.length();
+    det.abs() < FOLD * bend * (ds.length() + dt.length())
 }
 
 /// Solves `ds x + dt y = rhs`; nearly singular systems give large, finite answers.
@@ -115,12 +125,16 @@ struct Candidate {
     value: f32,
 }
 
-/// A few Newton steps, each kept only if it brings the conics closer to zero and halved if not.
-fn conics_polish(c: &Conics, start: Vec2) -> Candidate {
+/// A few Newton steps, each kept only if it brings the conics closer to zero and halved if not, until
+/// they are as close as `enough`.
+fn conics_polish(c: &Conics, start: Vec2, enough: f32) -> Candidate {
     let mut x = start.clamp(Vec2::splat(-3.0), Vec2::splat(3.0));
     let mut value = conics_value(c, x).length();
     let mut damping = 1.0f32;
     for _ in 0..POLISH_STEPS {
+        if value <= enough {
+            break;
+        }
         let step = solve_2x2(conics_ds(c, x), conics_dt(c, x), -conics_value(c, x));
         let next = (x + damping * step.clamp(Vec2::splat(-1.0), Vec2::splat(1.0)))
             .clamp(Vec2::splat(-3.0), Vec2::splat(3.0));
@@ -158,9 +172,16 @@ pub fn seeds(c: &Conics, slack: f32) -> Seeds {
     let middle = select(rough.first, 0.5 * (rough.first + rough.second), both);
     let fine = conics_split(c, middle.clamp(Vec2::splat(-1.5), Vec2::splat(1.5)), slack);
     let near = 4.0 * slack + 1e-5 * (c.c10.length() + c.c01.length());
+    let far = fine.second.x.abs().max(fine.second.y.abs()) > 4.0;
     let mut found = Seeds { count: 0, first: Vec2::ZERO, second: Vec2::ZERO };
-    found = seeds_add(found, conics_polish(c, fine.first), near);
-    found = seeds_add(found, conics_polish(c, fine.second), near);
-    found = seeds_add(found, conics_polish(c, rough.first), near);
-    seeds_add(found, conics_polish(c, Vec2::ZERO), near)
+    for attempt in 0..4 {
+        if found.count > 0 && (attempt > 1 || far) {
+            break;
+        }
+        let early = select(fine.second, fine.first, attempt == 0);
+        let late = select(Vec2::ZERO, rough.first, attempt == 2);
+        let start = select(late, early, attempt < 2);
+        found = seeds_add(found, conics_polish(c, start, 0.25 * near), near);
+    }
+    found
 }

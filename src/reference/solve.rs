@@ -4,7 +4,9 @@ use glam::{Vec2, Vec3, Vec4Swizzles};
 
 use super::patch_jet::patch_jet;
 use super::ray::Ray;
-use super::seeds::{Conics, Seeds, conics_bilinear, conics_split, conics_value, seeds, select, solve_2x2};
+use super::seeds::{
+    Conics, Seeds, conics_bilinear, conics_fold, conics_split, conics_value, seeds, select, solve_2x2,
+};
 
 /// Model axes seen from the viewer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,12 +93,15 @@ fn model_z(piece: &Piece, x: Vec2) -> f32 {
         + x.y * (piece.m01.z + x.y * piece.m02.z)
 }
 
-/// Where to start: the model's roots on or just beside the cell, nearest first.
+/// Where to start: the model's roots on or just beside the cell, nearest first. Where the model sees one
+/// that may stand for two, both starts are that one.
 pub fn piece_seeds(piece: &Piece, conics: &Conics) -> Seeds {
     let start = seeds(conics, piece.residual);
     let swap = start.count == 2 && model_z(piece, start.second) < model_z(piece, start.first);
-    let (first, second) = if swap { (start.second, start.first) } else { (start.first, start.second) };
-    Seeds { count: start.count, first, second: select(first, second, start.count == 2) }
+    let first = select(start.first, start.second, swap);
+    let second = select(start.second, start.first, swap);
+    let twofold = start.count == 1 && conics_fold(conics, start.first);
+    Seeds { count: select(start.count, 2, twofold), first, second: select(first, second, start.count == 2) }
 }
 
 /// What a step along the cell's curvature adds to the depth at a point whose derivatives are `slope`.

@@ -14,12 +14,15 @@ use crate::encoding::{DepthRange, FaceShape, PackedScene, View};
 use crate::kernel::face::{Face, Side};
 use crate::kernel::query::raycast::{RayHit, Raycaster};
 use crate::kernel::view::{Bounds, Camera, Projection, Ray};
-use crate::reference::visibility;
+use crate::reference::cast::Fragment;
+use crate::reference::visibility::{self, VisibilityBuffer};
 use crate::scene::records::ModelRecord;
 
 /// Close-ups per model and pixels each way of a picture.
 const VIEWS: usize = 20;
 const PIXELS: u32 = 160;
+/// Sets of close-ups, each with its own random numbers.
+const SEEDS: u64 = 1;
 
 /// What a comparison counted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -111,11 +114,46 @@ fn domain_patches(faces: &[Face]) -> Vec<(usize, crate::kernel::bezier::BezierPa
 
 /// Compares the twin's picture of `size` pixels each way with the oracle, ray by ray.
 pub fn compare(scene: &PackedScene, caster: &Raycaster, faces: &[Face], camera: &Camera, size: u32) -> Tally {
+    let view = View::new(camera, [size, size], [0.0; 2], depth_of(scene, camera), CAST_TRIM);
+    judge(scene, caster, faces, camera, &visibility::draw(scene, &view))
+}
+
+/// The depth planes that pictures to be compared are cast with.
+pub fn depth_of(scene: &PackedScene, camera: &Camera) -> DepthRange {
     let bounds = scene.bounds();
-    let depth = DepthRange::around(camera, bounds.centre(), 0.5 * bounds.diagonal());
+    DepthRange::around(camera, bounds.centre(), 0.5 * bounds.diagonal())
+}
+
+/// Pixels at which two pictures differ though the first shows one smooth surface all around them.
+pub fn strays(scene: &PackedScene, camera: &Camera, a: &VisibilityBuffer, b: &VisibilityBuffer) -> u64 {
+    let view = View::new(camera, [a.width, a.height], [0.0; 2], depth_of(scene, camera), CAST_TRIM);
+    let apart = |p: Fragment, q: Fragment, pixels: f64| {
+        let (z, other) = (drawn_z(&view, p.depth), drawn_z(&view, q.depth));
+        let pixel = f64::from(view.pixel[0]) + f64::from(view.pixel[1]) * z.abs();
+        p.words[0] != q.words[0] || (p.words[0] != 0 && (z - other).abs() > pixels * pixel)
+    };
+    let stray = |k: &u32| {
+        let (x, y) = ((k % a.width) as i32, (k / a.width) as i32);
+        let here = a.at(x, y);
+        let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy)));
+        apart(here, b.at(x, y), 1.0)
+            && !around.into_iter().any(|(dx, dy)| apart(here, a.at(x + dx, y + dy), 20.0))
+    };
+    (0..a.width * a.height).filter(stray).count() as u64
+}
+
+/// Compares a square picture with the oracle, ray by ray.
+pub fn judge(
+    scene: &PackedScene,
+    caster: &Raycaster,
+    faces: &[Face],
+    camera: &Camera,
+    picture: &VisibilityBuffer,
+) -> Tally {
+    let size = picture.width;
+    let depth = depth_of(scene, camera);
     let view = View::new(camera, [size, size], [0.0; 2], depth, CAST_TRIM);
-    let picture = visibility::draw(scene, &view);
-    let scene_size = bounds.diagonal();
+    let scene_size = scene.bounds().diagonal();
     (0..size * size)
         .into_par_iter()
         .map(|k| {
@@ -194,29 +232,89 @@ fn drawn_z(view: &View, depth: f32) -> f64 {
     (a - depth * c) / (depth * d - b)
 }
 
-/// Prints a line for each model.
+/// Something that casts close-ups: the twin, or the renderer on a driver.
+type Caster<'a> = dyn FnMut(&mut PackedScene, &Camera, bool) -> Option<VisibilityBuffer> + 'a;
+
+/// Prints a line for each model, for the twin and for the graphics driver.
 ///
 /// # Errors
 /// `out` cannot be written.
 pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
-    let mut sheet = Sheet::new(
-        format!(
-            "Hits missed at {VIEWS} random close-ups (zoom 1 to 1,000) of {PIXELS} x {PIXELS} rays, against the f64 oracle"
-        ),
-        &["model", "faces", "cells", "rays", "hits", "missed", "per 100,000", "extra"],
-    );
     let demo = [crate::scene::demo::model()];
     let models = if models.is_empty() { &demo[..] } else { models };
+    let mut twin = |scene: &mut PackedScene, camera: &Camera, _| Some(twin_picture(scene, camera));
+    table("the CPU twin", models, &mut twin, None, out)?;
+    #[cfg(feature = "gpu")]
+    match crate::gpu::Context::headless() {
+        Ok(context) => {
+            let format = wgpu::TextureFormat::Rgba8Unorm;
+            let mut renderer = crate::gpu::Renderer::new(&context.device, format);
+            let mut driver = |scene: &mut PackedScene, camera: &Camera, first| {
+                if first {
+                    scene.touch_all();
+                    renderer.upload(&context.device, &context.queue, scene).ok()?;
+                }
+                let sample = crate::gpu::Sample {
+                    camera: *camera,
+                    depth: depth_of(scene, camera),
+                    size: [PIXELS; 2],
+                    jitter: [0.0; 2],
+                    mode: crate::encoding::DisplayMode::Shaded,
+                };
+                crate::gpu::picture::visibility(&context, &mut renderer, &sample).ok()
+            };
+            table(&context.adapter_name, models, &mut driver, Some(twin_picture), out)?;
+        }
+        Err(error) => writeln!(out, "No table for the graphics driver: {error}\n")?,
+    }
+    Ok(())
+}
+
+fn twin_picture(scene: &PackedScene, camera: &Camera) -> VisibilityBuffer {
+    let view = View::new(camera, [PIXELS; 2], [0.0; 2], depth_of(scene, camera), CAST_TRIM);
+    visibility::draw(scene, &view)
+}
+
+/// `twin`: what pictures are compared with, besides the oracle.
+fn table(
+    name: &str,
+    models: &[ModelRecord],
+    caster: &mut Caster,
+    twin: Option<fn(&PackedScene, &Camera) -> VisibilityBuffer>,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let mut sheet = Sheet::new(
+        format!(
+            "Hits missed by {name} at {VIEWS} random close-ups (zoom 1 to 1,000) of {PIXELS} x {PIXELS} rays, against the f64 oracle"
+        ),
+        &[
+            "model",
+            "faces",
+            "cells",
+            "rays",
+            "hits",
+            "missed",
+            "per 100,000",
+            "extra",
+            "unlike the twin per 10,000",
+        ],
+    );
     for model in models {
         let derived: Vec<(Face, Option<[f32; 3]>)> =
             model.faces.iter().filter_map(|r| Some((r.derive().ok()?, r.colour))).collect();
-        let scene = PackedScene::from_faces(derived.iter().map(|(f, c)| FaceShape::of(f, *c, false)));
+        let mut scene = PackedScene::from_faces(derived.iter().map(|(f, c)| FaceShape::of(f, *c, false)));
         let faces: Vec<Face> = derived.into_iter().map(|(f, _)| f).collect();
-        let mut closeups = Closeups::new(&faces, scene.bounds(), 1);
-        let mut total = Tally::default();
-        for _ in 0..VIEWS {
-            let camera = closeups.camera();
-            total.add(&compare(&scene, &closeups.caster, &faces, &camera, PIXELS));
+        let (mut total, mut unlike) = (Tally::default(), 0);
+        for seed in 1..=SEEDS {
+            let mut closeups = Closeups::new(&faces, scene.bounds(), seed);
+            for view in 0..VIEWS {
+                let camera = closeups.camera();
+                let Some(picture) = caster(&mut scene, &camera, seed == 1 && view == 0) else { continue };
+                if let Some(twin) = twin {
+                    unlike += strays(&scene, &camera, &twin(&scene, &camera), &picture);
+                }
+                total.add(&judge(&scene, &closeups.caster, &faces, &camera, &picture));
+            }
         }
         sheet.row([
             model.name.clone(),
@@ -227,6 +325,7 @@ pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
             total.missed.to_string(),
             number(Some(1e5 * total.missed as f64 / total.rays.max(1) as f64)),
             total.extra.to_string(),
+            number(twin.map(|_| 1e4 * unlike as f64 / total.rays.max(1) as f64)),
         ]);
     }
     writeln!(out, "{sheet}")
