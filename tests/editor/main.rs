@@ -1,6 +1,10 @@
-//! The editor without a window: camera mathematics, the command table, and a headless world.
+//! The editor: camera mathematics, the command table, a headless world, and the program in a real window.
 
 mod camera;
 mod commands;
+#[cfg(target_os = "linux")]
+mod screen;
 mod settings;
+#[cfg(target_os = "linux")]
+mod window;
 mod world;
