@@ -22,6 +22,8 @@ impl Default for OpenDialog {
             .default_file_filter("IGES")
             .default_size([760.0, 480.0])
             .anchor(bevy_egui::egui::Align2::CENTER_CENTER, [0.0, 0.0])
+            // Its search field is black in every theme: in the light one nothing typed could be read.
+            .show_search(false)
             .allow_file_overwrite(false);
         Self { dialog, replace: true }
     }

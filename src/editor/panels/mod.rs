@@ -29,7 +29,7 @@ use super::camera::{CameraRequest, ViewCamera};
 use super::diagnostics::{ProcessMemory, RenderFigures};
 use super::files::{Loading, OpenDialog, OpenFiles};
 use super::object::{AuthoredFace, DerivedFace, Model, Part, Scene, Shown};
-use super::picking::Picker;
+use super::picking::{LeftButton, Picker};
 use super::selection::{SelectRequest, Selection, VisibilityRequest};
 use super::settings::Settings;
 use super::theme::{self, Palette};
@@ -77,6 +77,7 @@ pub(super) struct Reads<'w, 's> {
     pub situation: Res<'w, CurrentSituation>,
     pub loading: Res<'w, Loading>,
     pub picker: Res<'w, Picker>,
+    pub left: Res<'w, LeftButton>,
     pub camera: Res<'w, ViewCamera>,
     pub figures: Res<'w, RenderFigures>,
     pub memory: Res<'w, ProcessMemory>,

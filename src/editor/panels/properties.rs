@@ -133,10 +133,13 @@ fn unit_of_all(reads: &Reads) -> String {
     if units.all(|u| u == first) { first } else { "units".into() }
 }
 
-fn direction(knots: &KnotVector, closed: &str) -> String {
+fn direction(knots: &KnotVector) -> String {
     let (start, end) = knots.domain();
-    let spans = knots.breaks().len().saturating_sub(1);
-    format!("{} to {}, {}{closed}", number(start), number(end), plural(spans, "span"))
+    format!("{} to {}", number(start), number(end))
+}
+
+fn spans(knots: &KnotVector) -> usize {
+    knots.breaks().len().saturating_sub(1)
 }
 
 fn single(ui: &mut Ui, reads: &Reads, face: Entity) {
@@ -182,8 +185,9 @@ fn single(ui: &mut Ui, reads: &Reads, face: Entity) {
             ("Degree", format!("{} × {}", surface.knots_u().degree(), surface.knots_v().degree())),
             ("Control points", format!("{nu} × {nv}")),
             ("Weights", rational.into()),
-            ("u", direction(surface.knots_u(), "")),
-            ("v", direction(surface.knots_v(), "")),
+            ("Spans", format!("{} × {}", spans(surface.knots_u()), spans(surface.knots_v()))),
+            ("u", direction(surface.knots_u())),
+            ("v", direction(surface.knots_v())),
         ],
     );
     knots(ui, reads, "Knots in u", surface.knots_u());

@@ -14,6 +14,7 @@ use super::{Owned, Reads, Writes};
 use crate::editor::camera::CameraRequest;
 use crate::editor::selection::{SelectMode, SelectRequest, VisibilityRequest};
 use crate::editor::theme::size;
+use crate::editor::tools::Modifiers;
 use crate::scene::records::LoopRole;
 
 /// What the tree remembers.
@@ -142,7 +143,7 @@ fn show_row(ui: &mut Ui, row: Row, reads: &Reads, writes: &mut Writes, owned: &m
             writes.visibility.write(request(faces.clone()));
             writes.redraw.write(RequestRedraw);
         } else {
-            select(ui, row, &faces, writes, owned);
+            select(row, &faces, reads.left.held, writes, owned);
         }
     }
     if response.double_clicked() {
@@ -320,11 +321,10 @@ fn toggle_open(row: Row, reads: &Reads, rows: &mut Rows) {
 }
 
 /// Click: these. Ctrl: toggle these. Shift: everything from the last clicked face to this one.
-fn select(ui: &Ui, row: Row, faces: &[Entity], writes: &mut Writes, owned: &mut Owned) {
-    let modifiers = ui.input(|i| i.modifiers);
+fn select(row: Row, faces: &[Entity], held: Modifiers, writes: &mut Writes, owned: &mut Owned) {
     let tree = &mut owned.state.tree;
     let request = match (row, tree.anchor) {
-        (Row::Face(face), Some(anchor)) if modifiers.shift => {
+        (Row::Face(face), Some(anchor)) if held.shift => {
             let place = |entity| tree.rows.rows.iter().position(|r| *r == Row::Face(entity));
             let range = match (place(anchor), place(face)) {
                 (Some(a), Some(b)) => a.min(b)..=a.max(b),
@@ -334,12 +334,12 @@ fn select(ui: &Ui, row: Row, faces: &[Entity], writes: &mut Writes, owned: &mut 
                 Row::Face(f) => Some(*f),
                 _ => None,
             });
-            let mode = if modifiers.command { SelectMode::Add } else { SelectMode::Replace };
+            let mode = if held.ctrl { SelectMode::Add } else { SelectMode::Replace };
             SelectRequest { faces: between.collect(), mode }
         }
         _ => {
             tree.anchor = faces.last().copied();
-            let mode = if modifiers.command { SelectMode::Toggle } else { SelectMode::Replace };
+            let mode = if held.ctrl { SelectMode::Toggle } else { SelectMode::Replace };
             SelectRequest { faces: faces.to_vec(), mode }
         }
     };

@@ -5,7 +5,7 @@ use std::time::Duration;
 use bevy::prelude::*;
 use bevy::window::RequestRedraw;
 
-use super::Picker;
+use super::{LeftButton, Picker};
 use crate::editor::camera::CameraRequest;
 use crate::editor::object::DerivedFace;
 use crate::editor::selection::{SelectMode, SelectRequest, Selection};
@@ -16,52 +16,41 @@ const CLICK_SLOP: f32 = 4.0;
 /// Two clicks within this time are a double click.
 const DOUBLE_CLICK: Duration = Duration::from_millis(400);
 
+/// A click that has no answer by then is forgotten: its pixel is gone.
+const ANSWER_DUE: Duration = Duration::from_secs(5);
+
 /// A click whose pixel is not answered yet.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Click {
     pixel: UVec2,
     mode: SelectMode,
     double: bool,
-}
-
-/// The left button since it went down.
-#[derive(Debug, Default)]
-pub(super) struct LeftButton {
-    down: Option<Vec2>,
-    last: Option<(Duration, Vec2)>,
+    at: Duration,
 }
 
 /// Notes clicks: left button down and up again at about the same place of the viewport.
 pub(super) fn press(
     mut picker: ResMut<Picker>,
-    mut left: Local<LeftButton>,
-    buttons: Res<ButtonInput<MouseButton>>,
-    keys: Res<ButtonInput<KeyCode>>,
-    pointer: Res<Pointer>,
+    mut last: Local<Option<(Duration, Vec2)>>,
+    left: Res<LeftButton>,
     viewport: Res<Viewport>,
     time: Res<Time<Real>>,
 ) {
-    let Some(position) = pointer.position else { return };
-    let held = |a, b| keys.any_pressed([a, b]);
-    if buttons.just_pressed(MouseButton::Left) {
-        let alt = held(KeyCode::AltLeft, KeyCode::AltRight);
-        left.down = (pointer.in_viewport && !alt).then_some(position);
-    }
-    if !buttons.just_released(MouseButton::Left) {
-        return;
-    }
-    let Some(down) = left.down.take().filter(|down| down.distance(position) <= CLICK_SLOP) else { return };
-    let ctrl = held(KeyCode::ControlLeft, KeyCode::ControlRight);
-    let shift = held(KeyCode::ShiftLeft, KeyCode::ShiftRight);
     let now = time.elapsed();
-    let double = left
-        .last
-        .is_some_and(|(t, p)| now.saturating_sub(t) <= DOUBLE_CLICK && p.distance(down) <= CLICK_SLOP);
-    left.last = (!double).then_some((now, down));
-    let mode = if ctrl || shift { SelectMode::Toggle } else { SelectMode::Replace };
-    let pixel = viewport.pixel(position);
-    picker.wanted = Some(pixel);
-    picker.click = Some(Click { pixel, mode, double });
+    if picker.click.is_some_and(|click| now.saturating_sub(click.at) > ANSWER_DUE) {
+        picker.click = None;
+    }
+    for stroke in left.strokes.iter().filter(|s| !s.held.alt && s.down.distance(s.up) <= CLICK_SLOP) {
+        let double = last.is_some_and(|(t, p)| {
+            now.saturating_sub(t) <= DOUBLE_CLICK && p.distance(stroke.down) <= CLICK_SLOP
+        });
+        *last = (!double).then_some((now, stroke.down));
+        let toggle = stroke.held.ctrl || stroke.held.shift;
+        let mode = if toggle { SelectMode::Toggle } else { SelectMode::Replace };
+        let pixel = viewport.pixel(stroke.down);
+        picker.wanted = Some(pixel);
+        picker.click = Some(Click { pixel, mode, double, at: now });
+    }
 }
 
 /// Serves hover and the waiting click from the answer; asks for frames until the answer is there.

@@ -4,12 +4,14 @@
 //! two later in [`Picker`]; `Tools` turns answers into hover and clicks into `SelectRequest`s.
 
 mod click;
+mod left_button;
 mod pointer;
 
 use bevy::prelude::*;
 use glam::{DVec2, DVec3};
 
 use super::EditorSystems;
+pub use left_button::LeftButton;
 
 /// A point of a face under a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,7 +59,12 @@ impl Plugin for PickingPlugin {
         app.init_resource::<Picker>()
             .init_resource::<super::viewport::Pointer>()
             .init_resource::<super::viewport::Viewport>()
-            .add_systems(Update, (click::press, click::resolve).chain().in_set(EditorSystems::Tools));
+            .init_resource::<LeftButton>()
+            .add_message::<bevy::window::WindowEvent>()
+            .add_systems(
+                Update,
+                (left_button::follow, click::press, click::resolve).chain().in_set(EditorSystems::Tools),
+            );
         if self.windowed {
             app.add_systems(
                 Update,

@@ -36,7 +36,8 @@ pub(super) fn route(
     }
     pointer.set_if_neq(now);
     let wanted = pointer.position.filter(|_| pointer.in_viewport).map(|p| viewport.pixel(p));
-    if picker.wanted != wanted {
+    // A click keeps its pixel until it is answered, wherever the pointer goes meanwhile.
+    if picker.wanted != wanted && picker.click.is_none() {
         picker.wanted = wanted;
     }
 }

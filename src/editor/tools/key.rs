@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use bevy::input::ButtonState;
 use bevy::input::keyboard::{Key as LogicalKey, KeyCode};
 
 /// The key itself. Letters go by what is printed on them (so they follow the keyboard layout), digits
@@ -36,6 +37,21 @@ pub struct Modifiers {
     pub shift: bool,
     /// Alt.
     pub alt: bool,
+}
+
+impl Modifiers {
+    /// Takes note of a key that went down or up.
+    pub fn follow(&mut self, key: KeyCode, state: ButtonState) {
+        let down = state.is_pressed();
+        match key {
+            KeyCode::ControlLeft | KeyCode::ControlRight | KeyCode::SuperLeft | KeyCode::SuperRight => {
+                self.ctrl = down;
+            }
+            KeyCode::ShiftLeft | KeyCode::ShiftRight => self.shift = down,
+            KeyCode::AltLeft | KeyCode::AltRight => self.alt = down,
+            _ => {}
+        }
+    }
 }
 
 impl Shortcut {

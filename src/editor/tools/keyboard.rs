@@ -52,16 +52,8 @@ pub(super) fn press(
         *held = Modifiers::default();
     }
     for press in presses.read() {
-        let down = press.state.is_pressed();
-        match press.key_code {
-            KeyCode::ControlLeft | KeyCode::ControlRight | KeyCode::SuperLeft | KeyCode::SuperRight => {
-                held.ctrl = down;
-            }
-            KeyCode::ShiftLeft | KeyCode::ShiftRight => held.shift = down,
-            KeyCode::AltLeft | KeyCode::AltRight => held.alt = down,
-            _ => {}
-        }
-        if !down || press.repeat || pointer.keyboard_taken {
+        held.follow(press.key_code, press.state);
+        if !press.state.is_pressed() || press.repeat || pointer.keyboard_taken {
             continue;
         }
         let command = COMMANDS
