@@ -20,6 +20,34 @@ fn close_ups_of_the_demo_miss_nothing() {
 }
 
 #[test]
+fn close_ups_on_the_gpu_miss_nothing_and_equal_the_twins() {
+    use hairline::commands::bench::misses::{depth_of, judge, strays};
+    use hairline::encoding::{DisplayMode, View, view::CAST_TRIM};
+    use hairline::gpu::{Context, Renderer, Sample, picture::visibility};
+    let context = Context::headless().expect("a Vulkan driver, real or software (mesa-vulkan-drivers)");
+    let (faces, mut packed) = demo();
+    let mut renderer = Renderer::new(&context.device, wgpu::TextureFormat::Rgba8Unorm);
+    renderer.upload(&context.device, &context.queue, &mut packed).expect("room for the demo");
+    let mut closeups = Closeups::new(&faces, packed.bounds(), 11);
+    let mut total = hairline::commands::bench::misses::Tally::default();
+    let mut unlike = 0;
+    for _ in 0..4 {
+        let camera = closeups.camera();
+        let depth = depth_of(&packed, &camera);
+        let (size, mode) = ([96, 96], DisplayMode::Shaded);
+        let sample = Sample { camera, depth, size, jitter: [0.0; 2], mode };
+        let picture = visibility(&context, &mut renderer, &sample).expect("visibility buffer");
+        let view = View::new(&camera, size, [0.0; 2], depth, CAST_TRIM);
+        let twin = hairline::reference::visibility::draw(&packed, &view);
+        unlike += strays(&packed, &camera, &twin, &picture);
+        total.add(&judge(&packed, &closeups.caster, &faces, &camera, &picture));
+    }
+    assert!(total.hits > 5000, "{total:?}");
+    assert!(total.missed <= 1, "{total:?}");
+    assert!(unlike <= 3, "{unlike} of {} pixels differ", total.rays);
+}
+
+#[test]
 fn a_far_away_model_looks_the_same() {
     // The same patch at the origin and a million units away, at the same zoom: same hits.
     use hairline::encoding::{DepthRange, FaceShape, PackedScene, View, view::CAST_TRIM};
