@@ -2,7 +2,8 @@
 //! its mouse and keys. X Window System Protocol, version 11, and the XTEST extension (both X.Org).
 
 use std::io::{Read, Write};
-use std::os::unix::net::UnixStream;
+use std::os::linux::net::SocketAddrExt;
+use std::os::unix::net::{SocketAddr, UnixStream};
 use std::process::{Child, Command, Stdio};
 
 /// Width and height of the screen, pixels.
@@ -47,8 +48,11 @@ impl Screen {
             number.push(char::from(byte[0]));
         }
         let number: u32 = number.trim().parse().expect("Xvfb started");
-        let mut stream =
-            UnixStream::connect(format!("/tmp/.X11-unix/X{number}")).expect("the new server answers");
+        // As root the server makes a file; others may get the abstract name only.
+        let path = format!("/tmp/.X11-unix/X{number}");
+        let mut stream = UnixStream::connect(&path)
+            .or_else(|_| UnixStream::connect_addr(&SocketAddr::from_abstract_name(&path)?))
+            .expect("the new server answers");
         // Little-endian, protocol 11.0, no authorisation.
         stream.write_all(&[b'l', 0, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0]).expect("written");
         let mut head = [0u8; 8];
