@@ -17,14 +17,19 @@ use crate::kernel::view::Projection as ViewProjection;
 #[derive(Component, Debug, Default, Clone, Copy)]
 pub struct ViewportCamera;
 
-/// Spawns both cameras.
+/// Spawns both cameras. They share one texture: the panels are drawn over the picture of the viewport, and only
+/// the result goes to the window, once. On a software driver every pass over the window counts.
 pub(super) fn spawn(mut commands: Commands, settings: Option<ResMut<EguiGlobalSettings>>) {
     let Some(mut settings) = settings else { return };
     settings.auto_create_primary_context = false;
     commands.spawn((
         ViewportCamera,
         Camera3d::default(),
-        Camera { clear_color: ClearColorConfig::Custom(Color::BLACK), ..default() },
+        Camera {
+            clear_color: ClearColorConfig::Custom(Color::BLACK),
+            output_mode: CameraOutputMode::Skip,
+            ..default()
+        },
         Msaa::Off,
         Tonemapping::None,
         DebandDither::Disabled,
@@ -40,10 +45,10 @@ pub(super) fn spawn(mut commands: Commands, settings: Option<ResMut<EguiGlobalSe
         Camera {
             order: 1,
             output_mode: CameraOutputMode::Write {
-                blend_state: Some(BlendState::ALPHA_BLENDING),
+                blend_state: Some(BlendState::REPLACE),
                 clear_color: ClearColorConfig::None,
             },
-            clear_color: ClearColorConfig::Custom(Color::NONE),
+            clear_color: ClearColorConfig::None,
             ..default()
         },
     ));

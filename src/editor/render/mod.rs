@@ -22,6 +22,8 @@ use bevy::prelude::*;
 use bevy::render::diagnostic::RenderDiagnosticsPlugin;
 use bevy::render::sync_world::RenderEntity;
 use bevy::render::{Extract, ExtractSchedule, Render, RenderApp, RenderStartup, RenderSystems};
+use bevy::shader::Shader;
+use bevy_egui::render::EGUI_SHADER_HANDLE;
 
 use super::EditorSystems;
 use super::camera::ViewportCamera;
@@ -33,6 +35,14 @@ pub struct RenderPlugin;
 impl Plugin for RenderPlugin {
     fn build(&self, app: &mut App) {
         let answers = pick::PickAnswers::default();
+        // The panels' shader under bevy_egui's handle: its plugin is there already.
+        let panels = include_str!("../../../shaders/pass/panels.wgsl");
+        let panels = Shader::from_wgsl(panels, "shaders/pass/panels.wgsl");
+        if let Err(error) =
+            app.world_mut().resource_mut::<Assets<Shader>>().insert(&EGUI_SHADER_HANDLE, panels)
+        {
+            warn!("the panels keep their slower shader: {error}");
+        }
         app.add_plugins(RenderDiagnosticsPlugin)
             .insert_resource(answers.clone())
             .init_resource::<frame::CastTime>()
