@@ -48,7 +48,7 @@ pub(super) fn command_requests(
             Action::Fit => CameraRequest::Fit,
             Action::FitSelection => {
                 let bounds =
-                    faces.iter_many(selection.faces()).fold(Bounds::EMPTY, |b, f| b.union(f.0.bounds));
+                    faces.iter_many(selection.faces()).fold(Bounds::EMPTY, |b, f| b.union(f.0.best_bounds()));
                 CameraRequest::FitBounds(bounds)
             }
             Action::View(view) => CameraRequest::Standard(*view),
@@ -69,7 +69,8 @@ pub(super) fn serve(
 ) {
     for request in requests.read() {
         let all = || -> Vec<Bounds> {
-            let shown: Vec<Bounds> = faces.iter().filter(|(_, s)| s.0).map(|(d, _)| d.0.bounds).collect();
+            let shown: Vec<Bounds> =
+                faces.iter().filter(|(_, s)| s.0).map(|(d, _)| d.0.best_bounds()).collect();
             if shown.is_empty() { vec![bounds.to_fit()] } else { shown }
         };
         let from = camera.destination();

@@ -14,6 +14,8 @@ use crate::encoding::{FaceHeader, FaceShape, FaceSlot, PackedScene};
 
 /// Time for packing per frame: a large model appears piece by piece and the window stays alive.
 const PACK_TIME: Duration = Duration::from_millis(40);
+/// What was packed meanwhile is shown this often: sending and casting it takes time too.
+const SHOW_TIME: Duration = Duration::from_millis(500);
 
 /// What a face is packed from.
 #[derive(Debug, Clone)]
@@ -40,6 +42,9 @@ pub(super) struct RenderFaces {
     pub geometry: u64,
     /// Counts changes of `marks`.
     pub marks_revision: u64,
+    /// Whether faces were packed that are not shown yet, and when others were while these waited.
+    unshown: bool,
+    shown_at: Option<Instant>,
 }
 
 impl RenderFaces {
@@ -160,8 +165,13 @@ fn pack(faces: &mut RenderFaces) -> bool {
         faces.entities[index] = Some(entity);
         any = true;
     }
-    if any {
+    faces.unshown |= any;
+    let due = faces.shown_at.is_none_or(|t| t.elapsed() > SHOW_TIME);
+    if faces.unshown && (due || !faces.is_waiting()) {
         faces.geometry += 1;
+        faces.unshown = false;
+        // The next file opened shows its first faces at once.
+        faces.shown_at = faces.is_waiting().then(Instant::now);
     }
     any
 }
