@@ -15,8 +15,8 @@ struct Look {
     samples: f32,         // samples in the accumulated picture
     edge_width: f32,      // pixels
     pixel: vec2f,         // as in View
-    encode_srgb: u32,     // 1: the target stores what it is given, so encode
     pad0: u32,
+    pad1: u32,
 }
 
 const MODE_SHADED: u32 = 0u;

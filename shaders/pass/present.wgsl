@@ -21,26 +21,42 @@ fn vertex(@builtin(vertex_index) index: u32) -> Screen {
     return Screen(vec4f(2.0 * corner - 1.0, 0.0, 1.0), vec2f(corner.x, 1.0 - corner.y));
 }
 
+// Premultiplied linear colour.
 fn composed(uv: vec2f) -> vec4f {
     let sum = textureSampleLevel(accumulated, smooth_sampler, uv, 0.0) / look.samples;
     let background = mix(look.background_top, look.background_bottom, uv.y);
     let over = vec4f(background.rgb * background.a, background.a);
-    let colour = sum + (1.0 - clamp(sum.a, 0.0, 1.0)) * over;
-    if (look.encode_srgb == 0u) {
-        return colour;
-    }
+    return sum + (1.0 - clamp(sum.a, 0.0, 1.0)) * over;
+}
+
+fn encoded(colour: vec4f) -> vec4f {
     let straight = colour.rgb / max(colour.a, 1e-6);
     return vec4f(srgb_from_linear(clamp(straight, vec3f(0.0), vec3f(1.0))), clamp(colour.a, 0.0, 1.0));
 }
 
+fn depth_at(uv: vec2f) -> f32 {
+    return textureLoad(depths, clamp(vec2i(uv * look.size), vec2i(0), vec2i(look.size) - 1), 0);
+}
+
+// For targets that encode what they are given. Entry points of their own, because software drivers compute
+// both sides of every branch.
+@fragment
+fn fragment_linear(in: Screen) -> Pixel {
+    return Pixel(composed(in.uv), depth_at(in.uv));
+}
+
 @fragment
 fn fragment(in: Screen) -> Pixel {
-    let texel = clamp(vec2i(in.uv * look.size), vec2i(0), vec2i(look.size) - 1);
-    return Pixel(composed(in.uv), textureLoad(depths, texel, 0));
+    return Pixel(encoded(composed(in.uv)), depth_at(in.uv));
 }
 
 // For targets without a depth buffer.
 @fragment
-fn fragment_flat(in: Screen) -> @location(0) vec4f {
+fn fragment_flat_linear(in: Screen) -> @location(0) vec4f {
     return composed(in.uv);
+}
+
+@fragment
+fn fragment_flat(in: Screen) -> @location(0) vec4f {
+    return encoded(composed(in.uv));
 }

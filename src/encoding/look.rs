@@ -25,8 +25,8 @@ pub struct Look {
     pub samples: f32,
     pub edge_width: f32,
     pub pixel: [f32; 2],
-    pub encode_srgb: u32,
     pub pad0: u32,
+    pub pad1: u32,
 }
 
 impl Look {
@@ -58,8 +58,8 @@ impl Look {
             samples: 1.0,
             edge_width: edges.width_px,
             pixel: view.pixel,
-            encode_srgb: 0,
             pad0: 0,
+            pad1: 0,
         }
     }
 }

@@ -52,7 +52,7 @@ pub fn render_image(
         // One sample at a time keeps software drivers from hoarding work.
         context.wait()?;
     }
-    let presentation = Presentation { theme: options.theme, encode_srgb: true, viewport: None };
+    let presentation = Presentation { theme: options.theme, viewport: None, scissor: None };
     let mut encoder = device.create_command_encoder(&Default::default());
     let view = target.create_view(&Default::default());
     renderer.present(device, queue, &mut encoder, &view, None, &presentation);

@@ -81,6 +81,10 @@ impl Pipelines {
             wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
             texture(wgpu::TextureSampleType::Depth),
         ];
+        let (present_fragment, flat_fragment) = match format.is_srgb() {
+            true => ("fragment_linear", "fragment_flat_linear"),
+            false => ("fragment", "fragment_flat"),
+        };
         let present = |fragment, target, depth| Recipe {
             label: "present",
             source: shaders::PRESENT,
@@ -125,9 +129,9 @@ impl Pipelines {
             ),
             present: build(
                 device,
-                &present("fragment", over.clone(), Some(wgpu::CompareFunction::GreaterEqual)),
+                &present(present_fragment, over.clone(), Some(wgpu::CompareFunction::GreaterEqual)),
             ),
-            present_flat: build(device, &present("fragment_flat", unblended(format), None)),
+            present_flat: build(device, &present(flat_fragment, unblended(format), None)),
         }
     }
 }

@@ -1,11 +1,13 @@
 //! The renderer: scene buffers, targets and the three passes of a picture.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use super::GpuError;
 use super::buffers::{SceneBuffers, Uploaded};
 use super::pipelines::Pipelines;
-use super::targets::Targets;
+use super::targets::{Sum, Targets, within};
 use crate::encoding::options::cast_flags;
 use crate::encoding::view::DepthRange;
 use crate::encoding::{DisplayMode, EdgeStyle, Look, PackedScene, Theme, View};
@@ -41,16 +43,20 @@ pub struct Renderer {
     order_count: u32,
     order_revision: Option<u64>,
     sampler: wgpu::Sampler,
+    /// Rays of the last complete cast, and what sees them.
     targets: Targets,
+    view: View,
+    /// Rays of a cast by rows under way, and what sees them.
+    next: Option<(Targets, View)>,
+    sum: Sum,
     cast_group: Option<wgpu::BindGroup>,
     resolve_group: Option<wgpu::BindGroup>,
     present_group: Option<wgpu::BindGroup>,
-    view: View,
     samples: u32,
 }
 
 impl Renderer {
-    /// A renderer that presents into targets of `format`.
+    /// A renderer that presents into targets of `format`; colours are encoded unless the format does that.
     pub fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
         let uniforms = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("uniforms"),
@@ -73,10 +79,12 @@ impl Renderer {
             order_revision: None,
             sampler,
             targets: Targets::new(device, [1, 1]),
+            view: bytemuck::Zeroable::zeroed(),
+            next: None,
+            sum: Sum::new(device, [1, 1]),
             cast_group: None,
             resolve_group: None,
             present_group: None,
-            view: bytemuck::Zeroable::zeroed(),
             samples: 0,
         }
     }
@@ -111,7 +119,7 @@ impl Renderer {
         Ok(uploaded)
     }
 
-    /// Casts the rays of one sample into the visibility buffer.
+    /// Casts the rays of one sample.
     pub fn cast(
         &mut self,
         device: &wgpu::Device,
@@ -119,33 +127,66 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         sample: &Sample,
     ) {
-        if self.targets.size != sample.size.map(|s| s.max(1)) {
-            self.targets = Targets::new(device, sample.size);
-            self.resolve_group = None;
-            self.present_group = None;
-        }
-        let flags = cast_flags(sample.mode);
-        self.view = View::new(&sample.camera, self.targets.size, sample.jitter, sample.depth, flags);
-        let view = self.view;
+        self.cast_rows(device, queue, encoder, sample, 0..u32::MAX);
+    }
+
+    /// Casts the rays of some rows of a sample: all of them, or band after band from row 0 on with the same
+    /// sample. What [`Self::shade`] and [`Self::present`] see is the last complete cast until the last row
+    /// is there; a cast that starts at row 0 drops one that was not completed.
+    pub fn cast_rows(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        sample: &Sample,
+        rows: Range<u32>,
+    ) {
+        let size = within(device, sample.size);
+        let rows = rows.start.min(size[1])..rows.end.min(size[1]);
+        let view = View::new(&sample.camera, size, sample.jitter, sample.depth, cast_flags(sample.mode));
+        let whole = rows == (0..size[1]);
         let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
         if self.cast_group.is_none() {
             self.cast_group = Some(self.make_cast_group(device));
         }
+        if whole && self.targets.size == size {
+            // In place: a picture in one go needs no second set of textures.
+            self.view = view;
+            self.draw_rays(encoder, &self.targets, slot, rows);
+            return;
+        }
+        let next = match self.next.take() {
+            Some((targets, _)) if targets.size == size => targets,
+            _ => Targets::new(device, size),
+        };
+        self.draw_rays(encoder, &next, slot, rows.clone());
+        if rows.end == size[1] {
+            let last = std::mem::replace(&mut self.targets, next);
+            // Kept for the next cast by rows, if there was one.
+            self.next = (!whole).then_some((last, self.view));
+            self.view = view;
+            self.resolve_group = None;
+            self.present_group = None;
+        } else {
+            self.next = Some((next, view));
+        }
+    }
+
+    fn draw_rays(&self, encoder: &mut wgpu::CommandEncoder, targets: &Targets, slot: u32, rows: Range<u32>) {
+        let first = rows.start == 0;
+        let clear = |value: wgpu::Color| if first { wgpu::LoadOp::Clear(value) } else { wgpu::LoadOp::Load };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("cast"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &self.targets.visibility_view,
+                view: &targets.visibility_view,
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
+                ops: wgpu::Operations { load: clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.targets.depth_view,
+                view: &targets.depth_view,
                 depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(0.0),
+                    load: if first { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load },
                     store: wgpu::StoreOp::Store,
                 }),
                 stencil_ops: None,
@@ -154,7 +195,8 @@ impl Renderer {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        if self.order_count > 0 {
+        if self.order_count > 0 && !rows.is_empty() {
+            pass.set_scissor_rect(0, rows.start, targets.size[0], rows.end - rows.start);
             pass.set_pipeline(&self.pipelines.cast.pipeline);
             pass.set_bind_group(0, &self.cast_group, &[slot]);
             pass.draw(0..14, 0..self.order_count);
@@ -171,6 +213,12 @@ impl Renderer {
         edges: EdgeStyle,
         first: bool,
     ) {
+        let resized = self.sum.size != self.targets.size;
+        if resized {
+            self.sum = Sum::new(device, self.targets.size);
+            self.present_group = None;
+        }
+        let first = first || resized;
         let look = Look::new(&self.view, mode, edges, Theme::Transparent);
         let slot = self.write_uniform(queue, bytemuck::bytes_of(&look));
         if self.resolve_group.is_none() {
@@ -178,7 +226,7 @@ impl Renderer {
         }
         let load = if first { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
         self.samples = if first { 1 } else { self.samples + 1 };
-        let mut pass = full_screen(encoder, "shade", &self.targets.sum_view, load, None);
+        let mut pass = full_screen(encoder, "shade", &self.sum.view, load, None);
         pass.set_pipeline(&self.pipelines.resolve.pipeline);
         pass.set_bind_group(0, &self.resolve_group, &[slot]);
         pass.draw(0..3, 0..1);
@@ -197,7 +245,6 @@ impl Renderer {
     ) {
         let mut look = Look::new(&self.view, DisplayMode::Shaded, EdgeStyle::default(), presentation.theme);
         look.samples = self.samples.max(1) as f32;
-        look.encode_srgb = u32::from(presentation.encode_srgb);
         let slot = self.write_uniform(queue, bytemuck::bytes_of(&look));
         if self.present_group.is_none() {
             self.present_group = Some(self.make_present_group(device));
@@ -216,10 +263,13 @@ impl Renderer {
         if let Some([x, y, width, height]) = presentation.viewport {
             pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
         }
+        if let Some([x, y, width, height]) = presentation.scissor {
+            pass.set_scissor_rect(x, y, width, height);
+        }
         pass.draw(0..3, 0..1);
     }
 
-    /// The offscreen textures, for reading back.
+    /// The rays of the last complete cast, for reading back.
     pub fn targets(&self) -> &Targets {
         &self.targets
     }
@@ -273,7 +323,7 @@ impl Renderer {
     fn make_present_group(&self, device: &wgpu::Device) -> wgpu::BindGroup {
         let resources = vec![
             self.uniform_binding(size_of::<Look>()),
-            wgpu::BindingResource::TextureView(&self.targets.sum_view),
+            wgpu::BindingResource::TextureView(&self.sum.view),
             wgpu::BindingResource::Sampler(&self.sampler),
             wgpu::BindingResource::TextureView(&self.targets.depth_view),
         ];
@@ -286,10 +336,10 @@ impl Renderer {
 pub struct Presentation {
     /// Background.
     pub theme: Theme,
-    /// Whether colours are to be encoded as sRGB: for targets that store what they are given.
-    pub encode_srgb: bool,
     /// x, y, width and height in target pixels; `None`: the whole target.
     pub viewport: Option<[u32; 4]>,
+    /// The only pixels that may be drawn, in the same way, inside the target.
+    pub scissor: Option<[u32; 4]>,
 }
 
 /// A sphere around a scene for [`DepthRange::around`].

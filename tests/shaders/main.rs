@@ -1,6 +1,7 @@
 //! WGSL against the CPU twins and the f64 kernel. Needs a Vulkan driver (a software one will do): without
 //! one these tests fail, they do not pass quietly.
 
+mod bands;
 mod edits;
 mod modules;
 mod oracle;

@@ -53,7 +53,7 @@ fn rust_mirrors_match_the_shaders() {
     let grid = layout!(GridHeader: columns, rows, scale_u, scale_v, cell_base, entry_base, data_base, flags);
     assert_eq!(members(&cast, "GridHeader"), grid);
     let look = layout!(Look: background_top, background_bottom, edge, selected, hovered, slope_scale,
-        offset_scale, jitter, size, depth, mode, edges, samples, edge_width, pixel, encode_srgb, pad0);
+        offset_scale, jitter, size, depth, mode, edges, samples, edge_width, pixel, pad0, pad1);
     assert_eq!(members(&resolve, "Look"), look);
     for module in [&cast, &resolve] {
         let (mut list, span) = members(module, "FaceHeader");

@@ -29,6 +29,8 @@ pub(super) struct FrameView {
     /// A new measurement of the cast's GPU time, and the resolution it was made at.
     pub cast_ms: Option<f32>,
     pub cast_scale: f32,
+    /// A new measurement of the GPU time of a band of the picture at rest.
+    pub band_ms: Option<f32>,
 }
 
 impl Default for FrameView {
@@ -45,6 +47,7 @@ impl Default for FrameView {
             pick: None,
             cast_ms: None,
             cast_scale: 1.0,
+            band_ms: None,
         }
     }
 }
@@ -64,8 +67,9 @@ pub(super) fn extract(
 ) {
     *waker = new_waker.clone();
     view.pick = picker.wanted;
-    view.cast_ms = cast_time.ms.filter(|_| cast_time.fresh);
+    view.cast_ms = cast_time.whole.fresh;
     view.cast_scale = cast_time.scale;
+    view.band_ms = cast_time.band.fresh;
     view.camera = camera.now;
     view.viewport = **viewport;
     view.bounds = bounds.all;
@@ -76,34 +80,44 @@ pub(super) fn extract(
     view.clip = ClipView::of(&view.camera, view.viewport.aspect(), &view.bounds);
 }
 
-/// The GPU time of casting as last measured, in the main world.
+/// GPU times of casting as last measured, in the main world.
 #[derive(Resource, Debug, Default)]
 pub(super) struct CastTime {
-    ms: Option<f32>,
-    fresh: bool,
+    whole: SpanTime,
+    band: SpanTime,
     scale: f32,
+}
+
+/// One span: a measurement that came in since the last frame, and when the last one was made.
+#[derive(Debug, Default)]
+struct SpanTime {
+    fresh: Option<f32>,
     seen: Option<std::time::Instant>,
 }
 
-/// Reads the measurement from Bevy's diagnostics; it is a few frames old.
+impl SpanTime {
+    fn read(&mut self, store: &DiagnosticsStore, span: &str) -> Option<f32> {
+        self.fresh = None;
+        let path = DiagnosticPath::new(format!("render/{span}/elapsed_gpu"));
+        let measurement = store.get(&path)?.measurement()?;
+        if self.seen.replace(measurement.time) != Some(measurement.time) {
+            self.fresh = Some(measurement.value as f32);
+        }
+        self.fresh
+    }
+}
+
+/// Reads the measurements from Bevy's diagnostics; they are a few frames old. Frames that cast nothing
+/// measure nothing, so that the last figure stays.
 pub(super) fn read_cast_time(
     store: Res<DiagnosticsStore>,
     mut time: ResMut<CastTime>,
     figures: Res<RenderFigures>,
 ) {
-    time.fresh = false;
-    let path = DiagnosticPath::new(format!("render/{}/elapsed_gpu", super::model::CAST_SPAN));
-    let Some(measurement) = store.get(&path).and_then(|d| d.measurement()) else { return };
-    if time.seen == Some(measurement.time) {
-        return;
-    }
-    time.seen = Some(measurement.time);
+    let time = &mut *time;
+    let whole = time.whole.read(&store, super::model::CAST_SPAN);
+    let band = time.band.read(&store, super::model::BAND_SPAN);
     let mut figures = figures.lock();
-    time.ms = Some(measurement.value as f32);
     time.scale = figures.resolution;
-    // Frames that cast nothing are measured too, as next to nothing.
-    time.fresh = measurement.value > 0.05;
-    if time.fresh {
-        figures.gpu_ms = time.ms;
-    }
+    figures.gpu_ms = whole.or(band).or(figures.gpu_ms);
 }

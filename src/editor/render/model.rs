@@ -6,10 +6,11 @@ use bevy::prelude::*;
 use bevy::render::diagnostic::RecordDiagnostics;
 use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue, ViewQuery};
 use bevy::render::view::{ViewDepthTexture, ViewTarget};
+use glam::{DVec2, DVec3};
 
 use super::faces::RenderFaces;
 use super::frame::FrameView;
-use super::quality::{Next, Plan, Quality, SAMPLES};
+use super::quality::{Next, Plan, Quality, SAMPLES, STRIPS};
 use crate::editor::diagnostics::RenderFigures;
 use crate::editor::redraw::Waker;
 use crate::editor::settings::DisplayMode;
@@ -17,10 +18,12 @@ use crate::encoding::options::jitter;
 use crate::encoding::{self, DepthRange, EdgeStyle, Theme};
 use crate::gpu::renderer::Presentation;
 use crate::gpu::{Renderer, Sample};
-use crate::kernel::view::Camera as ViewPoint;
+use crate::kernel::view::{Bounds, Camera as ViewPoint};
 
-/// Name of the GPU time span of casting and shading.
+/// Name of the GPU time span of casting and shading a whole picture.
 pub(super) const CAST_SPAN: &str = "hairline_cast";
+/// The same for a band of the picture at rest.
+pub(super) const BAND_SPAN: &str = "hairline_band";
 
 /// The renderer and what its picture shows.
 #[derive(Resource)]
@@ -57,7 +60,7 @@ pub(super) fn create(mut commands: Commands, mut faces: ResMut<RenderFaces>) {
     faces.repack();
     commands.insert_resource(ModelPass {
         renderer: None,
-        quality: Quality::default(),
+        quality: Quality::careful(),
         cast: None,
         shade: None,
         started: Instant::now(),
@@ -100,8 +103,9 @@ pub(super) fn draw(
         }
     }
     let Some((_, renderer)) = &mut pass.renderer else { return };
-    let uploaded = renderer.upload(device, &queue, &mut faces.packed);
-    if let Err(error) = &uploaded {
+    if pass.cast.is_none_or(|cast| cast.geometry != faces.geometry)
+        && let Err(error) = renderer.upload(device, &queue, &mut faces.packed)
+    {
         let text = error.to_string();
         if pass.failure.as_ref() != Some(&text) {
             error!("the model cannot be drawn: {text}");
@@ -120,10 +124,19 @@ pub(super) fn draw(
     };
     let shade = ShadeKey { mode, edges: frame.settings.edges };
     if let Some(ms) = frame.cast_ms {
-        pass.quality.measure(frame.cast_scale, ms);
+        pass.quality.measure(frame.cast_scale, ms, figures.lock().frame_ms);
+    }
+    if let Some(ms) = frame.band_ms {
+        pass.quality.measure_band(ms);
     }
     let now = pass.started.elapsed();
-    let (plan, next) = pass.quality.plan(now, pass.cast != Some(cast), pass.shade != Some(shade));
+    let (cast_changed, shade_changed) = (pass.cast != Some(cast), pass.shade != Some(shade));
+    let (plan, next) = if faces.is_waiting() && !cast_changed && !shade_changed {
+        // More is on its way: no use in refining what is there.
+        (Plan::Keep, Next::Now)
+    } else {
+        pass.quality.plan(now, cast_changed, shade_changed)
+    };
     pass.cast = Some(cast);
     pass.shade = Some(shade);
 
@@ -131,11 +144,16 @@ pub(super) fn draw(
     // Edges are a pixel wide: in a coarse picture they would be bars.
     let edges_at = |scale: f32| EdgeStyle { visible: edges.visible && scale > 0.45, ..edges };
     let recorder = ctx.diagnostic_recorder();
-    let span = recorder.as_deref().map(|r| r.time_span(ctx.command_encoder(), CAST_SPAN));
+    let name = match plan {
+        Plan::Keep | Plan::Shade => None,
+        Plan::Cast { sample: 0, from: 0, to: STRIPS, .. } => Some(CAST_SPAN),
+        Plan::Cast { .. } => Some(BAND_SPAN),
+    };
+    let span = name.and_then(|name| Some(recorder.as_deref()?.time_span(ctx.command_encoder(), name)));
     match plan {
         Plan::Keep => {}
         Plan::Shade => renderer.shade(device, &queue, ctx.command_encoder(), mode_of(mode), edges, true),
-        Plan::Cast { scale, sample } => {
+        Plan::Cast { scale, sample, from, to } => {
             let scaled = (size.as_vec2() * scale).ceil().as_uvec2().max(UVec2::ONE);
             let rays = Sample {
                 camera: frame.camera,
@@ -144,16 +162,20 @@ pub(super) fn draw(
                 jitter: jitter(sample),
                 mode: mode_of(mode),
             };
-            renderer.cast(device, &queue, ctx.command_encoder(), &rays);
-            renderer.shade(
-                device,
-                &queue,
-                ctx.command_encoder(),
-                mode_of(mode),
-                edges_at(scale),
-                sample == 0,
-            );
-            pass.casts += 1;
+            let row = |strip: u32| (u64::from(scaled.y) * u64::from(strip) / u64::from(STRIPS)) as u32;
+            let rows = row(from)..row(to);
+            renderer.cast_rows(device, &queue, ctx.command_encoder(), &rays, rows);
+            if to == STRIPS {
+                renderer.shade(
+                    device,
+                    &queue,
+                    ctx.command_encoder(),
+                    mode_of(mode),
+                    edges_at(scale),
+                    sample == 0,
+                );
+                pass.casts += 1;
+            }
         }
     }
     if let Some(span) = span {
@@ -161,8 +183,8 @@ pub(super) fn draw(
     }
     let presentation = Presentation {
         theme: Theme::Transparent,
-        encode_srgb: !format.is_srgb(),
         viewport: Some([min.x, min.y, size.x, size.y]),
+        scissor: covered(&frame, target.main_texture().size()),
     };
     let target_view = target.main_texture_view();
     renderer.present(device, &queue, ctx.command_encoder(), target_view, Some(depth.view()), &presentation);
@@ -173,6 +195,32 @@ pub(super) fn draw(
         Next::After(time) => waker.wake_after(time),
         Next::Never => {}
     }
+}
+
+/// The pixels of the target that the model can cover: x, y, width, height. `None`: all of them.
+fn covered(frame: &FrameView, target: wgpu::Extent3d) -> Option<[u32; 4]> {
+    if frame.bounds.is_empty() {
+        return None;
+    }
+    let (min, size) = frame.viewport.physical();
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let Bounds { min: a, max: b } = frame.bounds;
+    for k in 0..8 {
+        let pick = |bit: u32, a: f64, b: f64| if k & bit == 0 { a } else { b };
+        let corner = DVec3::new(pick(1, a.x, b.x), pick(2, a.y, b.y), pick(4, a.z, b.z));
+        let ndc = frame.clip.project(&frame.camera, corner)?.truncate();
+        low = low.min(ndc);
+        high = high.max(ndc);
+    }
+    // Two texels of the coarsest picture.
+    const MARGIN_PX: f64 = 16.0;
+    let (min, size) = (min.as_dvec2(), size.as_dvec2());
+    let pixel = |x: f64, y: f64| min + DVec2::new(0.5 + 0.5 * x, 0.5 - 0.5 * y) * size;
+    let limit = DVec2::new(target.width.into(), target.height.into());
+    let from = (pixel(low.x, high.y) - MARGIN_PX).clamp(DVec2::ZERO, limit).as_uvec2();
+    let to = (pixel(high.x, low.y) + MARGIN_PX).clamp(DVec2::ZERO, limit).as_uvec2();
+    let extent = to.saturating_sub(from);
+    Some([from.x, from.y, extent.x, extent.y])
 }
 
 fn report(figures: &RenderFigures, quality: &Quality, faces: &RenderFaces) {
