@@ -11,7 +11,7 @@ const ASPECT: f64 = 1.6;
 
 fn cameras() -> impl Strategy<Value = Camera> {
     let bounds = Bounds { min: DVec3::new(-3.0, 2.0, 10.0), max: DVec3::new(9.0, 5.0, 13.0) };
-    (0.0..6.28, -1.5..1.5, any::<bool>()).prop_map(move |(yaw, pitch, parallel)| {
+    (0.0..std::f64::consts::TAU, -1.5..1.5, any::<bool>()).prop_map(move |(yaw, pitch, parallel)| {
         let projection = match parallel {
             true => Projection::Orthographic { height: 1.0 },
             false => Projection::Perspective { fov_y: FIELD_OF_VIEW },
