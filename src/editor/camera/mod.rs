@@ -53,6 +53,7 @@ impl Plugin for CameraPlugin {
         app.init_resource::<ViewCamera>()
             .init_resource::<navigate::Drag>()
             .add_message::<CameraRequest>()
+            .add_message::<bevy::window::WindowEvent>()
             .add_systems(Startup, bevy_camera::spawn)
             .add_systems(Update, (navigate::drag, navigate::wheel).chain().in_set(super::NavigationInput))
             .add_systems(Update, request::command_requests.in_set(EditorSystems::Tools))

@@ -2,11 +2,13 @@
 
 use bevy::input::mouse::{MouseScrollUnit, MouseWheel};
 use bevy::prelude::*;
+use bevy::window::WindowEvent;
 use glam::{DVec2, DVec3};
 
 use super::{ViewCamera, motion};
 use crate::editor::derive::SceneBounds;
 use crate::editor::picking::Picker;
+use crate::editor::tools::Modifiers;
 use crate::editor::viewport::{Pointer, Viewport};
 
 /// Radians of orbit for a drag over the height of the viewport.
@@ -30,37 +32,64 @@ struct Grip {
     pan: bool,
 }
 
-/// Orbit and pan.
+/// Pointer and keys as of the message last looked at.
+#[derive(Debug, Default)]
+pub(super) struct Hand {
+    position: Vec2,
+    keys: Modifiers,
+}
+
+/// Orbit and pan. Messages are followed one by one: in a slow frame a whole drag may have happened.
 pub(super) fn drag(
+    mut events: MessageReader<WindowEvent>,
+    mut hand: Local<Hand>,
     mut drag: ResMut<Drag>,
     mut camera: ResMut<ViewCamera>,
-    buttons: Res<ButtonInput<MouseButton>>,
-    keys: Res<ButtonInput<KeyCode>>,
     pointer: Res<Pointer>,
     viewport: Res<Viewport>,
     picker: Res<Picker>,
 ) {
-    let alt = keys.any_pressed([KeyCode::AltLeft, KeyCode::AltRight]);
-    let shift = keys.any_pressed([KeyCode::ShiftLeft, KeyCode::ShiftRight]);
-    let Some(position) = pointer.position else {
-        drag.0 = None;
-        return;
-    };
-    if drag.0.as_ref().is_some_and(|grip| !buttons.pressed(grip.button)) {
-        drag.0 = None;
+    for event in events.read() {
+        match event {
+            WindowEvent::KeyboardInput(key) => hand.keys.follow(key.key_code, key.state),
+            WindowEvent::KeyboardFocusLost(_) => {
+                hand.keys = Modifiers::default();
+                drag.0 = None;
+            }
+            WindowEvent::CursorMoved(moved) => {
+                hand.position = moved.position;
+                if let Some(grip) = &mut drag.0 {
+                    pull(grip, moved.position, &mut camera, &viewport);
+                }
+            }
+            WindowEvent::MouseButtonInput(input) if input.state.is_pressed() => {
+                let turns = match input.button {
+                    MouseButton::Middle | MouseButton::Right => true,
+                    MouseButton::Left => hand.keys.alt,
+                    _ => false,
+                };
+                let ours = pointer.in_viewport && viewport.contains(hand.position);
+                if turns && ours && drag.0.is_none() {
+                    drag.0 = Some(Grip {
+                        button: input.button,
+                        pivot: point_under(&camera, &picker, &viewport, hand.position),
+                        last: hand.position,
+                        pan: hand.keys.shift,
+                    });
+                }
+            }
+            WindowEvent::MouseButtonInput(input)
+                if drag.0.as_ref().is_some_and(|grip| grip.button == input.button) =>
+            {
+                drag.0 = None;
+            }
+            _ => {}
+        }
     }
-    if drag.0.is_none() && pointer.in_viewport {
-        let pressed = |button| buttons.just_pressed(button);
-        let button = [MouseButton::Middle, MouseButton::Right].into_iter().find(|b| pressed(*b));
-        let button = button.or((alt && pressed(MouseButton::Left)).then_some(MouseButton::Left));
-        drag.0 = button.map(|button| Grip {
-            button,
-            pivot: point_under(&camera, &picker, &viewport, position),
-            last: position,
-            pan: shift,
-        });
-    }
-    let Some(grip) = &mut drag.0 else { return };
+}
+
+/// Moves the camera so that what is gripped follows the pointer to `position`.
+fn pull(grip: &mut Grip, position: Vec2, camera: &mut ViewCamera, viewport: &Viewport) {
     if position == grip.last {
         return;
     }
