@@ -14,6 +14,7 @@
 pub mod camera;
 pub mod derive;
 pub mod diagnostics;
+pub mod elements;
 pub mod files;
 pub mod object;
 pub mod panels;
@@ -75,6 +76,7 @@ impl Plugin for EditorPlugin {
             object::ObjectPlugin,
             derive::DerivePlugin,
             selection::SelectionPlugin,
+            elements::ElementsPlugin,
             settings::SettingsPlugin,
             tools::ToolsPlugin,
             files::FilesPlugin,

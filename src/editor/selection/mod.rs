@@ -14,6 +14,10 @@ pub use visibility::VisibilityRequest;
 
 use super::EditorSystems;
 
+/// Within [`EditorSystems::ApplyEdits`]: after it the selection is that of this frame.
+#[derive(SystemSet, Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct ApplySelection;
+
 /// Adds selection and visibility.
 pub struct SelectionPlugin;
 
@@ -22,15 +26,14 @@ impl Plugin for SelectionPlugin {
         app.init_resource::<Selection>()
             .add_message::<SelectRequest>()
             .add_message::<VisibilityRequest>()
+            .configure_sets(Update, ApplySelection.in_set(EditorSystems::ApplyEdits))
             .add_systems(
                 Update,
                 (set::command_requests, visibility::command_requests).in_set(EditorSystems::Tools),
             )
             .add_systems(
                 Update,
-                (set::drop_despawned, set::apply, visibility::apply)
-                    .chain()
-                    .in_set(EditorSystems::ApplyEdits),
+                (set::drop_despawned, set::apply, visibility::apply).chain().in_set(ApplySelection),
             );
     }
 }
