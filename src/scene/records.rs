@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::kernel::face::{Face, FaceError};
 use crate::kernel::nurbs::NurbsSurface;
-pub use crate::kernel::trim::{LoopRecord, LoopRole};
+pub use crate::kernel::trim::{EdgeId, LoopRecord, LoopRole};
 
 /// A whole model as read from one file or made by the program.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

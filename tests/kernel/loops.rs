@@ -48,7 +48,7 @@ fn lines(points: &[(f64, f64)]) -> Vec<NurbsCurve2> {
 }
 
 fn record(curves: Vec<NurbsCurve2>) -> LoopRecord {
-    LoopRecord { role: LoopRole::Unknown, curves }
+    LoopRecord::new(LoopRole::Unknown, curves)
 }
 
 fn round_hole(u: f64, v: f64, radius: f64) -> LoopRecord {

@@ -85,7 +85,7 @@ impl Face {
         };
         let record = |l: &Loop| -> Result<LoopRecord, String> {
             let role = if l.outer { LoopRole::Outer } else { LoopRole::Inner };
-            Ok(LoopRecord { role, curves: l.curves.iter().map(curve).collect::<Result<_, _>>()? })
+            Ok(LoopRecord::new(role, l.curves.iter().map(curve).collect::<Result<_, _>>()?))
         };
         Ok(FaceRecord {
             name: None,

@@ -35,7 +35,7 @@ pub fn finish(
     loops: Vec<RawLoop>,
     tolerance: f64,
 ) -> Result<(NurbsSurface, Vec<LoopRecord>), FinishError> {
-    let record = |l: RawLoop| LoopRecord { role: l.role, curves: l.curves };
+    let record = |l: RawLoop| LoopRecord::new(l.role, l.curves);
     match carrier {
         Carrier::Spline(spline) => {
             if let Some(cut) = sweep.and_then(|s| cut_sweep(s, &loops, tolerance).transpose()) {
@@ -62,7 +62,7 @@ pub fn finish(
             };
             let loops = loops
                 .iter()
-                .map(|l| LoopRecord { role: l.role, curves: l.curves.iter().map(&mut convert).collect() })
+                .map(|l| LoopRecord::new(l.role, l.curves.iter().map(&mut convert).collect()))
                 .collect();
             Ok((spline, loops))
         }
@@ -109,10 +109,8 @@ fn cut_sweep(
     let mut convert = |c: &NurbsCurve2| {
         map_curve(c, bent, false, &map, tolerance, &mut distance).unwrap_or_else(|| c.map_points(map))
     };
-    let loops = loops
-        .iter()
-        .map(|l| LoopRecord { role: l.role, curves: l.curves.iter().map(&mut convert).collect() })
-        .collect();
+    let loops =
+        loops.iter().map(|l| LoopRecord::new(l.role, l.curves.iter().map(&mut convert).collect())).collect();
     Ok(Some((spline, loops)))
 }
 

@@ -16,11 +16,34 @@ pub enum LoopRole {
     Unknown,
 }
 
+/// An edge of the model: pcurves with the same number bound their faces along the same edge. Numbers
+/// count from 0 within one model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct EdgeId(pub u32);
+
 /// One closed trim loop: curves end to start, in order, each running in the loop's direction.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct LoopRecord {
     /// What the file says it is.
     pub role: LoopRole,
     /// Pcurves in native (u, v).
     pub curves: Vec<NurbsCurve2>,
+    /// The edge of the model that each curve lies on, where the file says so (IGES 504); empty where it
+    /// does not. Read it by [`LoopRecord::edge`].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub edges: Vec<Option<EdgeId>>,
+}
+
+impl LoopRecord {
+    /// A loop of `curves` of which no edges are known.
+    pub fn new(role: LoopRole, curves: Vec<NurbsCurve2>) -> Self {
+        Self { role, curves, edges: Vec::new() }
+    }
+
+    /// The edge of the model that curve `curve` lies on, if known. When curves were added or taken away
+    /// since, nothing is known of any of them any more.
+    pub fn edge(&self, curve: usize) -> Option<EdgeId> {
+        if self.edges.len() == self.curves.len() { self.edges.get(curve).copied().flatten() } else { None }
+    }
 }

@@ -30,7 +30,7 @@ pub use brute::BruteForce;
 pub use domain::{Periods, UvRect};
 pub use grid::ParityGrid;
 pub use intervals::IntervalLists;
-pub use loop_record::{LoopRecord, LoopRole};
+pub use loop_record::{EdgeId, LoopRecord, LoopRole};
 pub use pack::PackedSegments;
 pub use pieces::{Piece, PieceList};
 pub use remark::TrimRemark;

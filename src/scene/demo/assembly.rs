@@ -38,7 +38,7 @@ impl Assembly {
     pub fn face(&mut self, name: impl Into<String>, surface: NurbsSurface, loops: Vec<Vec<NurbsCurve2>>) {
         let role = |index| if index == 0 { LoopRole::Outer } else { LoopRole::Inner };
         let loops =
-            loops.into_iter().enumerate().map(|(i, curves)| LoopRecord { role: role(i), curves }).collect();
+            loops.into_iter().enumerate().map(|(i, curves)| LoopRecord::new(role(i), curves)).collect();
         self.model.faces.push(FaceRecord {
             name: Some(name.into()),
             source: None,

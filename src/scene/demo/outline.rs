@@ -12,7 +12,7 @@ use crate::scene::records::{LoopRecord, LoopRole};
 
 /// A loop of `curves`.
 pub fn trim_loop(role: LoopRole, curves: Vec<NurbsCurve2>) -> LoopRecord {
-    LoopRecord { role, curves }
+    LoopRecord::new(role, curves)
 }
 
 /// The Bezier curve over `[0, 1]` with these control points and weights 1.
