@@ -2,6 +2,7 @@
 
 pub mod analytic;
 pub mod conic;
+pub mod outline;
 pub mod sweep;
 
 pub use analytic::{AnalyticSurface, Shape};

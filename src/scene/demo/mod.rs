@@ -7,7 +7,6 @@
 mod assembly;
 mod coin;
 mod lettering;
-mod outline;
 mod pedestal;
 mod plate;
 mod puzzle_ball;
@@ -19,6 +18,7 @@ mod shape;
 pub use plate::holes;
 
 use super::records::ModelRecord;
+use crate::kernel::primitives::outline;
 
 /// The demo scene.
 pub fn model() -> ModelRecord {

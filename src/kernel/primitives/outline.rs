@@ -1,14 +1,15 @@
 //! Closed outlines in a uv plane: exact circles, polygons, smooth shapes given by a function, and
 //! single Bezier curves of very high degree.
 //!
-//! Every function returns the curves of one loop, head to tail, closed exactly.
+//! Every function returns the curves of one loop, head to tail, closed exactly. Points must be finite: callers
+//! check what users give.
 
 use std::f64::consts::TAU;
 
 use glam::DVec2;
 
 use crate::kernel::nurbs::{KnotVector, NurbsCurve2};
-use crate::scene::records::{LoopRecord, LoopRole};
+use crate::kernel::trim::{LoopRecord, LoopRole};
 
 /// A loop of `curves`.
 pub fn trim_loop(role: LoopRole, curves: Vec<NurbsCurve2>) -> LoopRecord {
@@ -19,7 +20,7 @@ pub fn trim_loop(role: LoopRole, curves: Vec<NurbsCurve2>) -> LoopRecord {
 pub fn bezier(points: Vec<DVec2>) -> NurbsCurve2 {
     let weights = vec![1.0; points.len()];
     let knots = KnotVector::bezier(points.len() - 1, 0.0, 1.0).expect("degree is in range");
-    NurbsCurve2::new(knots, points, weights).expect("demo points are finite")
+    NurbsCurve2::new(knots, points, weights).expect("callers give finite points")
 }
 
 /// The exact circle: one rational quadratic of four quarter arcs.
@@ -27,7 +28,7 @@ pub fn circle(centre: DVec2, radius: f64) -> Vec<NurbsCurve2> {
     let (knots, ring) = quarter_arcs();
     let points = ring.iter().map(|(p, _)| centre + *p * radius).collect();
     let weights = ring.iter().map(|(_, w)| *w).collect();
-    vec![NurbsCurve2::new(knots, points, weights).expect("demo points are finite")]
+    vec![NurbsCurve2::new(knots, points, weights).expect("callers give finite points")]
 }
 
 /// Knots over `[0, 4]`, control points and weights of the unit circle, one quarter turn to each unit.
