@@ -164,7 +164,7 @@ pub(super) fn transform(
 
 pub(super) fn add(subject: &Subject, shape: &Shape, role: LoopRole) -> Result<Edit, OperationError> {
     let after: Vec<LoopRecord> =
-        shape.loops(subject)?.into_iter().map(|curves| LoopRecord { role, curves }).collect();
+        shape.loops(subject)?.into_iter().map(|curves| LoopRecord::new(role, curves)).collect();
     let change = Change::Loops { face: subject.id, at: subject.view.loops.len(), before: Vec::new(), after };
     Ok(Edit::new(format!("Add {}", shape.name()), vec![change]))
 }
@@ -182,11 +182,19 @@ pub(super) fn delete(subject: &Subject, loops: &[usize]) -> Result<Edit, Operati
     Ok(Edit::new(label, changes.collect()))
 }
 
+/// `trim` run through the other way round.
+pub(super) fn reversed(trim: &LoopRecord) -> LoopRecord {
+    LoopRecord {
+        role: trim.role,
+        curves: trim.curves.iter().rev().map(NurbsCurve2::reversed).collect(),
+        edges: trim.edges.iter().rev().copied().collect(),
+    }
+}
+
 pub(super) fn reverse(subject: &Subject, loops: &[usize]) -> Result<Edit, OperationError> {
-    let changes = named(subject, loops)?.into_iter().map(|trim_loop| {
-        let before = subject.view.loops[trim_loop].curves.clone();
-        let after = before.iter().rev().map(NurbsCurve2::reversed).collect();
-        Change::Curves { face: subject.id, trim_loop, at: 0, before, after }
+    let changes = named(subject, loops)?.into_iter().map(|at| {
+        let before = subject.view.loops[at];
+        Change::Loops { face: subject.id, at, before: vec![before.clone()], after: vec![reversed(before)] }
     });
     Ok(Edit::new("Reverse loop", changes.collect()))
 }
