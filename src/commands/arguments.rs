@@ -162,6 +162,8 @@ pub enum Table {
     Classify,
     /// Building the trimming structures: time and bytes per segment.
     Build,
+    /// Editing: time and bytes from one moved control point to the ranges sent to a GPU.
+    Edit,
     /// Ray casting: time per frame and per fragment.
     Raycast,
     /// Ray casting against the f64 oracle: missed hits.
