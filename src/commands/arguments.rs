@@ -8,6 +8,7 @@ use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::exchange::iges::unit::Unit;
 use crate::kernel::view::StandardView;
 
 const EXAMPLES: &str = "\
@@ -17,6 +18,7 @@ Examples:
   hairline render part.igs -o part.png --view top --samples 16
   hairline info part.igs --json | jq '.faces[0]'
   printf '1 0.5 0.5\\n' | hairline classify part.igs
+  hairline convert part.igs part-in-inches.igs --unit in
   hairline bench classify
 
 FILE may be the word `demo` for the built-in scene (`./demo` for a file of that name).
@@ -60,6 +62,8 @@ pub enum Command {
     Info(InfoArguments),
     /// Classify points `face u v` from standard input against the trims: in, out or on.
     Classify(ClassifyArguments),
+    /// Write a model in another format, with its trims, names, colours, levels and parts.
+    Convert(ConvertArguments),
     /// Measure speed and print tables.
     Bench(BenchArguments),
 }
@@ -137,6 +141,30 @@ pub struct ClassifyArguments {
     pub file: PathBuf,
 }
 
+/// `hairline convert`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "\
+Examples:
+  hairline convert part.igs mended.igs
+  hairline convert part.igs inches.iges --unit in
+  hairline convert demo demo.igs
+
+The extension of OUT says what to write: .igs and .iges are IGES 5.3 (faces as 128 and 144, boundaries
+as 142 with curves in parameters and in space, names, colours, levels, parts as groups). In
+millimetres every number of surfaces and trim curves reads back bit for bit. OUT is written whole or not
+at all, and must not be IN. Entities of IN that cannot be read are left out, which standard error says.")]
+pub struct ConvertArguments {
+    /// Model to read, or `demo`.
+    #[arg(value_name = "IN")]
+    pub input: PathBuf,
+    /// File to write.
+    #[arg(value_name = "OUT")]
+    pub output: PathBuf,
+    /// Unit of lengths in an IGES file: mm, cm, m, km, um, in, ft, mi, mil or uin.
+    #[arg(long, value_name = "UNIT", default_value = "mm")]
+    pub unit: Unit,
+}
+
 /// `hairline bench`.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "\
@@ -162,8 +190,6 @@ pub enum Table {
     Classify,
     /// Building the trimming structures: time and bytes per segment.
     Build,
-    /// Editing: time and bytes from one moved control point to the ranges sent to a GPU.
-    Edit,
     /// Ray casting: time per frame and per fragment.
     Raycast,
     /// Ray casting against the f64 oracle: missed hits.

@@ -5,6 +5,7 @@
 pub mod arguments;
 pub mod bench;
 pub mod classify;
+pub mod convert;
 pub mod edit;
 pub mod failure;
 pub mod info;
@@ -48,6 +49,7 @@ fn dispatch(arguments: &Arguments) -> Result<(), Failure> {
         Some(Command::Render(arguments)) => render::run(arguments),
         Some(Command::Info(arguments)) => info::run(arguments),
         Some(Command::Classify(arguments)) => classify::run(arguments),
+        Some(Command::Convert(arguments)) => convert::run(arguments),
         Some(Command::Bench(arguments)) => bench::run(arguments),
     }
 }
@@ -60,7 +62,8 @@ fn quieten_drivers(arguments: &Arguments) {
     use std::os::unix::process::CommandExt;
 
     const LAYER_OFF: &str = "NODEVICE_SELECT";
-    let draws = !matches!(arguments.command, Some(Command::Info(_) | Command::Classify(_)));
+    let draws =
+        !matches!(arguments.command, Some(Command::Info(_) | Command::Classify(_) | Command::Convert(_)));
     let complains = std::env::var_os("XDG_RUNTIME_DIR").is_none() && std::env::var_os(LAYER_OFF).is_none();
     if draws
         && complains

@@ -190,19 +190,6 @@ impl PackedScene {
         self.trim_data.touch_all();
     }
 
-    /// Bytes that the next upload would send; afterwards nothing counts as changed.
-    pub fn take_changed_bytes(&mut self) -> usize {
-        fn taken<T: Copy>(arena: &mut Arena<T>) -> usize {
-            arena.take_dirty().iter().map(|r| r.len() * size_of::<T>()).sum()
-        }
-        taken(&mut self.cells)
-            + taken(&mut self.points)
-            + taken(&mut self.faces)
-            + taken(&mut self.trim_cells)
-            + taken(&mut self.trim_entries)
-            + taken(&mut self.trim_data)
-    }
-
     /// Grows with every change; equal numbers mean nothing changed.
     pub fn revision(&self) -> u64 {
         self.revision

@@ -96,19 +96,6 @@ impl Face {
         Self::derive_with(surface, loops, &GridOptions::default())
     }
 
-    /// Derives a face from an edited surface or edited loops. The result is that of [`Self::derive`] bit for
-    /// bit; what the edit left as it was is taken over from `previous`.
-    ///
-    /// # Errors
-    /// See [`FaceError`].
-    pub fn derive_after(
-        _previous: &Self,
-        surface: &NurbsSurface,
-        loops: &[LoopRecord],
-    ) -> Result<Self, FaceError> {
-        Self::derive(surface, loops)
-    }
-
     /// The same with choices for the grid.
     ///
     /// # Errors

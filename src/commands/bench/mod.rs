@@ -4,7 +4,6 @@
 
 pub mod build;
 pub mod classify;
-pub mod edit;
 pub mod misses;
 pub mod raycast;
 pub mod rivals;
@@ -25,14 +24,13 @@ use crate::scene::records::ModelRecord;
 pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     let tables = match arguments.table {
         Some(table) => vec![table],
-        None => vec![Table::Classify, Table::Build, Table::Edit, Table::Raycast, Table::Misses],
+        None => vec![Table::Classify, Table::Build, Table::Raycast, Table::Misses],
     };
     let models = models(&arguments.files)?;
     let mut out = std::io::stdout().lock();
     tables.into_iter().try_for_each(|table| match table {
         Table::Classify => classify::run(&models, &mut out).map_err(unwritable),
         Table::Build => build::run(&models, &mut out).map_err(unwritable),
-        Table::Edit => edit::run(&models, &mut out).map_err(unwritable),
         Table::Raycast => raycast::run(&models, &mut out).map_err(unwritable),
         Table::Misses => misses::run(&models, &mut out).map_err(unwritable),
     })

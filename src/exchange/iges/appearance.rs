@@ -4,7 +4,7 @@ use super::parameter::Args;
 use super::store::Reader;
 
 /// The eight standard colours, red, green, blue in percent (IGES 5.3, table 2): number 1 is black.
-const STANDARD: [[f64; 3]; 8] = [
+pub(crate) const STANDARD: [[f64; 3]; 8] = [
     [0.0, 0.0, 0.0],
     [100.0, 0.0, 0.0],
     [0.0, 100.0, 0.0],
@@ -55,6 +55,6 @@ pub(crate) fn colour(reader: &mut Reader<'_, '_>, field: i64) -> Option<[f32; 3]
 }
 
 /// From the nonlinear values that files hold to linear light (sRGB).
-fn linear(c: f64) -> f64 {
+pub(crate) fn linear(c: f64) -> f64 {
     if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
 }

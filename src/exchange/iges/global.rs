@@ -2,6 +2,7 @@
 
 use super::parameter::{Args, Delimiters, Field, fields};
 use super::physical::Physical;
+use super::unit;
 use crate::scene::records::LengthUnit;
 
 /// What the global section says, with defaults for what it leaves out.
@@ -45,7 +46,7 @@ impl Global {
         let name = args.text();
         args.skip(3); // line weights, date
         let resolution = args.real_or("resolution", 0.0).unwrap_or(0.0);
-        let (unit, unit_problem) = unit(flag, &name);
+        let (unit, unit_problem) = unit::choose(flag, &name);
         let system = match (system.is_empty(), version.is_empty() || version == system) {
             (true, _) => version,
             (false, true) => system,
@@ -80,41 +81,4 @@ fn delimiters(text: &[u8]) -> (Delimiters, usize) {
         result = Delimiters::default();
     }
     (result, position)
-}
-
-/// The unit for a flag and a name; the flag wins, except where it says "see the name".
-fn unit(flag: i64, name: &str) -> (LengthUnit, Option<String>) {
-    const UNITS: [(i64, &str, f64, &[&str]); 10] = [
-        (1, "in", 25.4, &["IN", "INCH", "INCHES"]),
-        (2, "mm", 1.0, &["MM", "MILLIMETER", "MILLIMETERS", "MILLIMETRE"]),
-        (4, "ft", 304.8, &["FT", "FOOT", "FEET"]),
-        (5, "mi", 1_609_344.0, &["MI", "MILE", "MILES"]),
-        (6, "m", 1000.0, &["M", "METER", "METERS", "METRE"]),
-        (7, "km", 1e6, &["KM", "KILOMETER", "KILOMETERS", "KILOMETRE"]),
-        (8, "mil", 0.0254, &["MIL", "MILS"]),
-        (9, "um", 1e-3, &["UM", "MICRON", "MICRONS", "MICROMETER"]),
-        (10, "cm", 10.0, &["CM", "CENTIMETER", "CENTIMETERS", "CENTIMETRE"]),
-        (11, "uin", 2.54e-5, &["UIN", "MICROINCH", "MICROINCHES"]),
-    ];
-    let make = |unit: &(i64, &str, f64, &[&str])| LengthUnit { name: unit.1.into(), millimetres: unit.2 };
-    let upper = name.trim().to_ascii_uppercase();
-    let by_flag = UNITS.iter().find(|u| u.0 == flag);
-    let by_name = UNITS.iter().find(|u| u.3.contains(&upper.as_str()));
-    match (by_flag, by_name) {
-        (Some(a), Some(b)) if a.0 != b.0 => {
-            let problem = format!("unit flag {flag} says {}, unit name says {name}; {} is used", a.1, a.1);
-            (make(a), Some(problem))
-        }
-        (Some(a), _) => (make(a), None),
-        (None, Some(b)) => {
-            let problem =
-                (flag != 3 && flag != 0).then(|| format!("unknown unit flag {flag}; {name} is used"));
-            (make(b), problem)
-        }
-        // With no unit at all IGES means inches.
-        (None, None) if flag == 0 && upper.is_empty() => (make(&UNITS[0]), None),
-        (None, None) => {
-            (LengthUnit::default(), Some(format!("unknown unit (flag {flag}, name `{name}`); mm is used")))
-        }
-    }
 }

@@ -1,4 +1,4 @@
-//! Reading IGES (versions 4 to 5.3, fixed ASCII form) into [`ModelRecord`]s.
+//! Reading IGES (versions 4 to 5.3, fixed ASCII form) into [`ModelRecord`]s, and writing it ([`mod@write`]).
 //!
 //! The file is cut into lines and sections (`physical`), the directory is read (`directory`), and
 //! every face-like entity that is not a part of another one becomes a face, in file order. Geometry
@@ -42,6 +42,8 @@ mod surface128;
 mod tabulated122;
 mod transform124;
 mod trimmed144;
+pub mod unit;
+pub mod write;
 
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -194,11 +194,7 @@ impl Carrier {
     pub fn jet(&self, uv: DVec2) -> [DVec3; 3] {
         match self {
             Self::Analytic(surface) => surface.jet(uv),
-            Self::Spline(spline) => {
-                let uv = spline.wrapped(uv);
-                let jet = spline.surface.jet(uv.x, uv.y);
-                [jet.point, jet.du, jet.dv]
-            }
+            Self::Spline(spline) => spline.jet(uv),
         }
     }
 
@@ -206,10 +202,7 @@ impl Carrier {
     pub fn point(&self, uv: DVec2) -> DVec3 {
         match self {
             Self::Analytic(surface) => surface.jet(uv)[0],
-            Self::Spline(spline) => {
-                let uv = spline.wrapped(uv);
-                spline.surface.point(uv.x, uv.y)
-            }
+            Self::Spline(spline) => spline.point(uv),
         }
     }
 
@@ -256,6 +249,19 @@ impl Carrier {
 }
 
 impl SplineCarrier {
+    /// Point and first derivatives; where the surface is closed parameters may run past the ends.
+    pub fn jet(&self, uv: DVec2) -> [DVec3; 3] {
+        let uv = self.wrapped(uv);
+        let jet = self.surface.jet(uv.x, uv.y);
+        [jet.point, jet.du, jet.dv]
+    }
+
+    /// Point; where the surface is closed parameters may run past the ends.
+    pub fn point(&self, uv: DVec2) -> DVec3 {
+        let uv = self.wrapped(uv);
+        self.surface.point(uv.x, uv.y)
+    }
+
     /// `uv` wrapped into the domain where the surface is closed; otherwise as it is.
     fn wrapped(&self, uv: DVec2) -> DVec2 {
         let (min, max) = self.limits();
