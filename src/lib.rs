@@ -2,7 +2,7 @@
 //! surface and classified against the rational trim curves. No triangles stand in between.
 //!
 //! The library is layered and dependencies point one way:
-//! `kernel` <- `encoding` <- `reference` <- `gpu`; `kernel` <- `scene` <- `exchange`; `commands`
+//! `kernel` <- `scene` <- `inspect`; `kernel` <- `encoding` <- `reference` <- `gpu`; `kernel` <- `scene` <- `exchange`; `commands`
 //! sees all of these; `editor` sees everything and nothing sees `editor`.
 
 pub mod commands;
@@ -12,6 +12,7 @@ pub mod encoding;
 pub mod exchange;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod inspect;
 pub mod kernel;
 pub mod reference;
 pub mod scene;

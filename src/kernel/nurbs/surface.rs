@@ -4,6 +4,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::{KnotVector, NurbsError, check_points};
+use crate::kernel::bezier::Tangents;
 
 /// A rational B-spline surface. Control point `(i, j)` (i along u, j along v) is number
 /// `i * count_v + j`; points are not premultiplied by their weights.
@@ -98,6 +99,13 @@ impl NurbsSurface {
         let dvv = (d[0][2].0 - dv * (2.0 * d[0][1].1) - s * d[0][2].1) / w;
         let duv = (d[1][1].0 - dv * d[1][0].1 - du * d[0][1].1 - s * d[1][1].1) / w;
         SurfaceJet { point: s, du, dv, duu, duv, dvv }
+    }
+
+    /// Point and first derivatives at `(u, v)`.
+    pub fn tangents(&self, u: f64, v: f64) -> Tangents {
+        let d = self.homogeneous(u, v, 1);
+        let (point, w) = d[0][0];
+        Tangents { point, du: (d[1][0].0 - point * d[1][0].1) / w, dv: (d[0][1].0 - point * d[0][1].1) / w }
     }
 
     /// `result[k][l]`: numerator (divided by the weight for k = l = 0 only) and weight derivatives,

@@ -55,6 +55,14 @@ impl BoundsTree {
         self.descend(near, &mut visit);
     }
 
+    /// Calls `visit` with each item whose box comes within `distance`, along every axis, of `around`.
+    pub fn meeting(&self, around: &Bounds, distance: f64, mut visit: impl FnMut(usize)) {
+        let meets = |b: &Bounds| {
+            (b.min - around.max).max_element() <= distance && (around.min - b.max).max_element() <= distance
+        };
+        self.descend(meets, &mut visit);
+    }
+
     fn descend(&self, enter: impl Fn(&Bounds) -> bool, visit: &mut impl FnMut(usize)) {
         // Median splits keep the depth below 32 for any 32-bit number of items.
         let mut stack = Vec::with_capacity(40);

@@ -1,0 +1,257 @@
+//! A trim curve lifted into space: the exact curve `S(p(t))`, with a table of points along it.
+//!
+//! The table (at Bezier breaks of the pcurve and between, finer where the pcurve crosses knots of the surface)
+//! gives arc length, a box, and starts for searches; all figures are of the exact curve.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use super::edge::CurveAddress;
+use super::ground::Ground;
+use crate::kernel::bezier::BezierCurve2;
+use crate::kernel::nurbs::{KnotVector, NurbsCurve2};
+use crate::kernel::trim::EdgeId;
+use crate::kernel::view::Bounds;
+
+/// Points of the table at most.
+const MOST_NODES: usize = 513;
+
+/// A point of a lifted curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurvePoint {
+    /// Parameter.
+    pub t: f64,
+    /// Native parameters of the surface (as the pcurve gives them).
+    pub uv: DVec2,
+    /// The point.
+    pub point: DVec3,
+    /// Derivative by t.
+    pub tangent: DVec3,
+}
+
+/// An entry of the table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Node {
+    /// Parameter.
+    pub t: f64,
+    /// The point.
+    pub point: DVec3,
+    /// Length of the derivative.
+    pub speed: f64,
+    /// Arc length up to here.
+    pub length: f64,
+}
+
+/// A lifted trim curve.
+#[derive(Debug, Clone)]
+pub struct LiftedCurve {
+    /// Where it is from.
+    pub address: CurveAddress,
+    /// Part (body) of its face.
+    pub part: Option<usize>,
+    /// Edge of the model it lies on, where the file says so.
+    pub edge: Option<EdgeId>,
+    /// Whether the face lies to its left (in uv).
+    pub material_left: bool,
+    ground: Arc<Ground>,
+    pieces: Vec<(BezierCurve2, (f64, f64))>,
+    nodes: Vec<Node>,
+    bounds: Bounds,
+}
+
+impl LiftedCurve {
+    /// Lifts `curve` onto `ground`. `None` when its image is not finite.
+    pub fn new(
+        address: CurveAddress,
+        ground: &Arc<Ground>,
+        curve: &NurbsCurve2,
+        (part, edge): (Option<usize>, Option<EdgeId>),
+    ) -> Option<Self> {
+        let mut lifted = Self {
+            address,
+            part,
+            edge,
+            material_left: true,
+            ground: ground.clone(),
+            pieces: curve.to_bezier(),
+            nodes: Vec::new(),
+            bounds: Bounds::EMPTY,
+        };
+        if lifted.pieces.is_empty() {
+            return None;
+        }
+        lifted.nodes = lifted.table();
+        lifted.bounds = lifted.bounding_box();
+        let finite = lifted.nodes.iter().all(|n| n.point.is_finite() && n.length.is_finite());
+        finite.then_some(lifted)
+    }
+
+    /// The surface.
+    pub fn ground(&self) -> &Ground {
+        &self.ground
+    }
+
+    /// Table of points along it, an odd number, rising in parameter.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// A box that holds it.
+    pub fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
+    /// Arc length.
+    pub fn length(&self) -> f64 {
+        self.nodes.last().map_or(0.0, |n| n.length)
+    }
+
+    /// First and last parameter.
+    pub fn domain(&self) -> (f64, f64) {
+        (self.nodes[0].t, self.nodes[self.nodes.len() - 1].t)
+    }
+
+    /// First and last point.
+    pub fn ends(&self) -> [DVec3; 2] {
+        [self.nodes[0].point, self.nodes[self.nodes.len() - 1].point]
+    }
+
+    /// Parameters at which the pcurve changes its polynomial.
+    pub fn breaks(&self) -> impl Iterator<Item = f64> + '_ {
+        self.pieces.iter().map(|p| p.1.0).chain(self.pieces.last().map(|p| p.1.1))
+    }
+
+    /// Polynomial pieces of the pcurve with their intervals.
+    pub fn pieces(&self) -> &[(BezierCurve2, (f64, f64))] {
+        &self.pieces
+    }
+
+    /// Whether all of it is one point: shorter than a tenth of a millionth of its face.
+    pub fn is_degenerate(&self) -> bool {
+        self.length() <= (1e-7 * self.ground.size()).max(16.0 * self.ground.rounding())
+    }
+
+    /// Parameters of the surface and their derivative at `t`.
+    pub fn uv(&self, t: f64) -> (DVec2, DVec2) {
+        let last = self.pieces.len() - 1;
+        let at = self.pieces.partition_point(|p| p.1.1 <= t).min(last);
+        let (curve, (a, b)) = &self.pieces[at];
+        let (uv, derivative) = curve.tangent((t - a) / (b - a));
+        (uv, derivative / (b - a))
+    }
+
+    /// Point and derivative at `t`.
+    pub fn at(&self, t: f64) -> CurvePoint {
+        let (uv, d) = self.uv(t);
+        let surface = self.ground.tangents(uv);
+        CurvePoint { t, uv, point: surface.point, tangent: surface.du * d.x + surface.dv * d.y }
+    }
+
+    /// Unit vector at `t` in the tangent plane, across the curve, into the face; beside a pole where there is
+    /// none at `t` itself.
+    pub fn inward(&self, t: f64) -> Option<DVec3> {
+        let (a, b) = self.domain();
+        let middle = 0.5 * (a + b);
+        [0.0, 1e-6, 1e-3].into_iter().find_map(|step| {
+            let (uv, d) = self.uv(t + (middle - t) * step);
+            let surface = self.ground.tangents(uv);
+            let along = (surface.du * d.x + surface.dv * d.y).try_normalize()?;
+            let normal = self.ground.normal(uv)?;
+            let left = normal.cross(along);
+            Some(if self.material_left { left } else { -left })
+        })
+    }
+
+    /// Arc length from the start to `t`.
+    pub fn length_to(&self, t: f64) -> f64 {
+        let (a, b) = self.span(|n| n.t <= t);
+        hermite_length(a, b, t)
+    }
+
+    /// Parameter at which `length` of the arc has gone by.
+    pub fn parameter_at(&self, length: f64) -> f64 {
+        let (a, b) = self.span(|n| n.length <= length);
+        if !(b.length > a.length) || length <= a.length {
+            return a.t;
+        }
+        if length >= b.length {
+            return b.t;
+        }
+        let (mut low, mut high) = (a.t, b.t);
+        for _ in 0..50 {
+            let t = 0.5 * (low + high);
+            if hermite_length(a, b, t) < length { low = t } else { high = t }
+        }
+        0.5 * (low + high)
+    }
+
+    /// The two neighbouring nodes of which the first is the last that `before` holds for.
+    fn span(&self, before: impl Fn(&Node) -> bool) -> (&Node, &Node) {
+        let at = self.nodes.partition_point(before).clamp(1, self.nodes.len() - 1);
+        (&self.nodes[at - 1], &self.nodes[at])
+    }
+
+    fn table(&self) -> Vec<Node> {
+        let surface = self.ground.surface();
+        let room = (MOST_NODES / 2 / self.pieces.len()).max(1);
+        let mut nodes: Vec<Node> = Vec::new();
+        let node = |t: f64| {
+            let p = self.at(t);
+            Node { t, point: p.point, speed: p.tangent.length(), length: 0.0 }
+        };
+        for (curve, (a, b)) in &self.pieces {
+            let (low, high) = curve.hull();
+            let crossed = knots_between(surface.knots_u(), low.x, high.x)
+                + knots_between(surface.knots_v(), low.y, high.y);
+            let (pu, pv) = surface.degrees();
+            let bends = curve.degree().clamp(2, 4) + pu.max(pv).min(3);
+            let count = (bends.div_ceil(2) * (1 + crossed)).clamp(1, room);
+            if nodes.is_empty() {
+                nodes.push(node(*a));
+            }
+            for k in 0..count {
+                let at = |s: f64| a + (b - a) * ((k as f64 + s) / count as f64).min(1.0);
+                let (mut middle, mut end) = (node(at(0.5)), node(at(1.0)));
+                let start = nodes[nodes.len() - 1];
+                // Simpson's rule for the whole, and for the first half of the same parabola.
+                let h = 0.5 * (end.t - start.t);
+                let first = h / 12.0 * (5.0 * start.speed + 8.0 * middle.speed - end.speed);
+                let both = h / 3.0 * (start.speed + 4.0 * middle.speed + end.speed);
+                middle.length = start.length + first.clamp(0.0, both);
+                end.length = start.length + both;
+                nodes.extend([middle, end]);
+            }
+        }
+        nodes
+    }
+
+    /// The box of the nodes, grown by twice what the curve bends away between three of them.
+    fn bounding_box(&self) -> Bounds {
+        let mut bounds = Bounds::of(self.nodes.iter().map(|n| n.point));
+        let bend = |w: &[Node]| (w[1].point - 0.5 * (w[0].point + w[2].point)).length();
+        let most = self.nodes.windows(3).map(bend).fold(0.0, f64::max);
+        let margin = DVec3::splat(most);
+        bounds.min -= margin;
+        bounds.max += margin;
+        bounds
+    }
+}
+
+fn knots_between(knots: &KnotVector, low: f64, high: f64) -> usize {
+    let all = knots.as_slice();
+    let inner = all.partition_point(|k| *k < high).saturating_sub(all.partition_point(|k| *k <= low));
+    // Repeated knots count more than once; that only makes the table finer.
+    inner.min(2 * knots.control_count())
+}
+
+/// Arc length at `t` between two nodes: the cubic with their lengths and speeds.
+fn hermite_length(a: &Node, b: &Node, t: f64) -> f64 {
+    let h = b.t - a.t;
+    let s = ((t - a.t) / h).clamp(0.0, 1.0);
+    let r = 1.0 - s;
+    let value = a.length * r * r * (1.0 + 2.0 * s)
+        + b.length * s * s * (3.0 - 2.0 * s)
+        + h * s * r * (a.speed * r - b.speed * s);
+    value.clamp(a.length, b.length)
+}

@@ -1,0 +1,81 @@
+//! What to say of all edges at once: counts by kind, quantiles and a histogram of gaps.
+
+use serde::Serialize;
+
+use super::edge::{Edge, EdgeKind};
+use super::inspection::Inspection;
+
+/// Number and length of the edges of one kind.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Tally {
+    /// Number of edges.
+    pub count: usize,
+    /// Their length (model units).
+    pub length: f64,
+}
+
+/// Edges by kind, and how their gaps are spread.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Edges of two faces.
+    pub shared: Tally,
+    /// Edges of one face.
+    pub naked: Tally,
+    /// Edges of three faces or more.
+    pub non_manifold: Tally,
+    /// Edges of a face with itself.
+    pub seam: Tally,
+    /// Edges that are one point.
+    pub degenerate: Tally,
+    /// The largest gap of each edge that has one, rising (model units).
+    pub gaps: Vec<f64>,
+}
+
+impl Statistics {
+    /// Counts the edges of `inspection`.
+    pub fn of(inspection: &Inspection) -> Self {
+        let mut result = Self::default();
+        for (_, edge) in inspection.edges() {
+            result.add(edge);
+        }
+        result.gaps.sort_by(f64::total_cmp);
+        result
+    }
+
+    fn add(&mut self, edge: &Edge) {
+        let tally = match edge.kind {
+            EdgeKind::Shared => &mut self.shared,
+            EdgeKind::Naked => &mut self.naked,
+            EdgeKind::NonManifold => &mut self.non_manifold,
+            EdgeKind::Seam => &mut self.seam,
+            EdgeKind::Degenerate => &mut self.degenerate,
+        };
+        tally.count += 1;
+        tally.length += edge.length();
+        self.gaps.extend(edge.gap.map(|g| g.maximum));
+    }
+
+    /// The gap that the part `q` (0 to 1) of the edges stays below or at; 0 without gaps.
+    pub fn quantile(&self, q: f64) -> f64 {
+        let last = self.gaps.len().saturating_sub(1);
+        let at = (q.clamp(0.0, 1.0) * last as f64).round() as usize;
+        self.gaps.get(at).copied().unwrap_or(0.0)
+    }
+
+    /// Number of gaps above `limit` (model units).
+    pub fn above(&self, limit: f64) -> usize {
+        self.gaps.len() - self.gaps.partition_point(|g| *g <= limit)
+    }
+
+    /// Numbers of gaps in `[10^k, 10^(k + 1))` model units for each k of `decades`; what is smaller or larger is
+    /// counted in the first or last.
+    pub fn histogram(&self, decades: std::ops::Range<i32>) -> Vec<usize> {
+        let mut counts = vec![0; decades.len().max(1)];
+        for gap in &self.gaps {
+            let decade = if *gap > 0.0 { gap.log10().floor() } else { f64::NEG_INFINITY };
+            let last = counts.len() - 1;
+            counts[(decade - f64::from(decades.start)).clamp(0.0, last as f64) as usize] += 1;
+        }
+        counts
+    }
+}
