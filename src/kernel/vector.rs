@@ -23,6 +23,8 @@ pub trait Vector:
     const DIMENSION: usize;
     /// The `axis`-th coordinate.
     fn coordinate(self, axis: usize) -> f64;
+    /// The unit vector along the `axis`-th coordinate.
+    fn unit(axis: usize) -> Self;
     /// Scalar product.
     fn dot(self, other: Self) -> f64;
     /// Smaller coordinates of the two, one by one.
@@ -44,6 +46,9 @@ macro_rules! vector {
             const DIMENSION: usize = $dimension;
             fn coordinate(self, axis: usize) -> f64 {
                 self[axis]
+            }
+            fn unit(axis: usize) -> Self {
+                <$type>::AXES[axis]
             }
             fn dot(self, other: Self) -> f64 {
                 <$type>::dot(self, other)

@@ -4,6 +4,7 @@ mod areas;
 mod bounds;
 mod closest;
 mod loops;
+mod operations;
 mod parity;
 mod raycast;
 mod splines;

@@ -8,7 +8,8 @@ use super::{KnotError, KnotVector, NurbsCurve, NurbsCurve3, NurbsError, NurbsSur
 use crate::kernel::vector::Vector;
 
 /// One of the two parameter directions of a surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Direction {
     /// The first parameter.
     U,

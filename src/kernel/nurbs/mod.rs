@@ -1,6 +1,7 @@
 //! Non-uniform rational B-splines of any degree: knot vectors, curves and surfaces.
 
 pub mod basis;
+pub mod coarsening;
 mod curve;
 pub mod decomposition;
 pub mod editing;
@@ -12,6 +13,7 @@ mod spline_map;
 pub mod surface;
 
 pub use basis::Basis;
+pub use coarsening::Coarse;
 pub use curve::{NurbsCurve, NurbsCurve2, NurbsCurve3};
 pub use editing::Direction;
 pub use knots::{KnotError, KnotVector};
