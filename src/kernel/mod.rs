@@ -5,6 +5,7 @@ pub mod face;
 pub mod nurbs;
 pub mod primitives;
 pub mod query;
+pub mod tessellate;
 pub mod trim;
 pub mod vector;
 pub mod view;

@@ -1,0 +1,206 @@
+//! Trim curves to chords (P2, section 5.1).
+//!
+//! [`CurveDivision::Even`] integrates the number of chords that curvature, angle and length ask for along each smooth
+//! stretch of a run and puts the vertices at even shares of it; every chord is then proved by its hull
+//! ([`super::line_error::within`]) and divided further where that fails. The paper's two divisions work piece by piece.
+//! The vertices depend on the run alone, so that faces which share it share them.
+
+use glam::{DVec2, DVec3};
+
+use super::line_error::{farthest_point, line_error, point_error, within};
+use super::options::{CurveDivision, CurveError, TessellationOptions};
+use super::outline::Run;
+use crate::kernel::bezier::BezierCurve3;
+
+/// A vertex on a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EdgeSample {
+    /// Parameter on the run.
+    pub s: f64,
+    /// Native parameters of the face.
+    pub uv: DVec2,
+    /// Position that all faces at this edge share.
+    pub point: DVec3,
+}
+
+/// What chords must keep to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChordLimits {
+    /// Largest distance from the curve.
+    pub tolerance: f64,
+    /// Largest turn of the tangent along one chord, radians.
+    pub angle: f64,
+    /// Longest chord.
+    pub length: f64,
+}
+
+/// Turn of a chord without a limit: a circle keeps three of them and two half circles two each.
+const WIDEST_TURN: f64 = 2.0;
+/// Joints that turn by more than this are corners, which keep a vertex (cosine).
+const SMOOTH: f64 = 0.99;
+/// Samples of the curvature of each piece.
+const PROBES: usize = 4;
+/// Most vertices on one stretch.
+const MOST: f64 = 2e6;
+
+impl ChordLimits {
+    /// The limits that `options` set for curves.
+    pub fn new(options: &TessellationOptions) -> Self {
+        let share = if options.simplify { options.gamma } else { 1.0 };
+        Self {
+            tolerance: share * options.tolerance,
+            angle: options.max_angle.unwrap_or(WIDEST_TURN).min(WIDEST_TURN),
+            length: options.max_edge.unwrap_or(f64::INFINITY),
+        }
+    }
+}
+
+/// Vertices of `run`, both ends included, `s` rising.
+pub fn divide(run: &Run, limits: &ChordLimits, options: &TessellationOptions) -> Vec<EdgeSample> {
+    let mut places = match options.curve_division {
+        CurveDivision::Even => even(run, limits),
+        other => by_pieces(run, limits, other, options.curve_error),
+    };
+    places.dedup();
+    let sample = |s: f64| EdgeSample { s, uv: run.uv(s), point: run.point(s) };
+    places.into_iter().map(sample).collect()
+}
+
+fn even(run: &Run, limits: &ChordLimits) -> Vec<f64> {
+    let mut places = vec![0.0];
+    let mut first = 0;
+    for k in 0..run.pieces.len() {
+        let last = k + 1 == run.pieces.len();
+        if last || !is_smooth(&run.pieces[k].space, &run.pieces[k + 1].space) {
+            stretch(run, first, k + 1, limits, &mut places);
+            first = k + 1;
+        }
+    }
+    places
+}
+
+fn is_smooth(a: &BezierCurve3, b: &BezierCurve3) -> bool {
+    let (x, y) = (a.tangent(1.0).1, b.tangent(0.0).1);
+    x.dot(y) >= SMOOTH * x.length() * y.length()
+}
+
+/// Number of chords that each part of a piece asks for.
+fn demand(curve: &BezierCurve3, limits: &ChordLimits) -> [f64; PROBES] {
+    let step = 1.0 / PROBES as f64;
+    std::array::from_fn(|k| {
+        let jet = curve.jet((k as f64 + 0.5) * step);
+        let speed = jet.d1.length();
+        let bend = if speed > 0.0 { jet.d2.cross(jet.d1).length() / speed } else { jet.d2.length() };
+        let sagitta = (bend / (8.0 * limits.tolerance)).sqrt();
+        let turn = if speed > 0.0 { bend / speed / limits.angle } else { 0.0 };
+        sagitta.max(turn).max(speed / limits.length) * step
+    })
+}
+
+/// Divides the pieces `first..end` of a run, a smooth stretch.
+fn stretch(run: &Run, first: usize, end: usize, limits: &ChordLimits, places: &mut Vec<f64>) {
+    let demands: Vec<f64> = run.pieces[first..end].iter().flat_map(|p| demand(&p.space, limits)).collect();
+    let total: f64 = demands.iter().sum();
+    let total = if total.is_finite() { total.min(MOST) } else { 1.0 };
+    // Chords may be a percent too long for their share: the proof below decides.
+    let least = (total - 0.01).ceil().max(1.0) as usize;
+    let offset = first as f64;
+    for count in least..least + 2 {
+        let cuts = shares(&demands, count);
+        let fits = cuts.windows(2).all(|c| is_within(run, offset + c[0], offset + c[1], limits.tolerance));
+        if fits {
+            places.extend(cuts[1..].iter().map(|c| offset + c));
+            return;
+        }
+    }
+    let cuts = shares(&demands, least);
+    for pair in cuts.windows(2) {
+        halve(run, (offset + pair[0], offset + pair[1]), limits.tolerance, 24, places);
+    }
+}
+
+/// `count + 1` parameters at even shares of the demand, the first 0 and the last the number of pieces.
+fn shares(demands: &[f64], count: usize) -> Vec<f64> {
+    let total: f64 = demands.iter().sum();
+    let end = demands.len() as f64 / PROBES as f64;
+    let mut cuts = vec![0.0];
+    let (mut k, mut before) = (0, 0.0);
+    for i in 1..count {
+        let target = total * i as f64 / count as f64;
+        while k + 1 < demands.len() && before + demands[k] < target {
+            before += demands[k];
+            k += 1;
+        }
+        let part = if demands[k] > 0.0 { ((target - before) / demands[k]).clamp(0.0, 1.0) } else { 0.5 };
+        cuts.push((k as f64 + part) / PROBES as f64);
+    }
+    cuts.push(end);
+    if !total.is_finite() || cuts.windows(2).any(|c| c[1] <= c[0]) {
+        return (0..=count).map(|i| end * i as f64 / count as f64).collect();
+    }
+    cuts
+}
+
+/// Whether the part of a run between two parameters lies within `tolerance` of its chord.
+fn is_within(run: &Run, from: f64, to: f64, tolerance: f64) -> bool {
+    let (a, b) = (run.point(from), run.point(to));
+    let (first, last) = (from as usize, (to.ceil() as usize).clamp(1, run.pieces.len()));
+    (first..last).all(|k| {
+        let curve = &run.pieces[k].space;
+        let (low, high) = ((from - k as f64).max(0.0), (to - k as f64).min(1.0));
+        if low == 0.0 && high == 1.0 {
+            within(curve, a, b, tolerance)
+        } else {
+            within(&curve.restrict(low, high), a, b, tolerance)
+        }
+    })
+}
+
+fn halve(run: &Run, (from, to): (f64, f64), tolerance: f64, depth: u32, places: &mut Vec<f64>) {
+    let middle = 0.5 * (from + to);
+    if depth == 0 || middle <= from || middle >= to || is_within(run, from, to, tolerance) {
+        places.push(to);
+        return;
+    }
+    halve(run, (from, middle), tolerance, depth - 1, places);
+    halve(run, (middle, to), tolerance, depth - 1, places);
+}
+
+/// The paper's way: each piece by itself, halved or divided at the farthest control point.
+fn by_pieces(run: &Run, limits: &ChordLimits, division: CurveDivision, error: CurveError) -> Vec<f64> {
+    fn part(
+        curve: &BezierCurve3,
+        (from, to): (f64, f64),
+        limits: &ChordLimits,
+        choice: (CurveDivision, CurveError),
+        depth: u32,
+        places: &mut Vec<f64>,
+    ) {
+        let off = match choice.1 {
+            CurveError::Line => line_error(curve),
+            CurveError::Point => point_error(curve),
+        };
+        let turn = curve.tangent(0.0).1.angle_between(curve.tangent(1.0).1);
+        let long = curve.start().distance(curve.end()) > limits.length;
+        if depth == 0 || !(off > limits.tolerance || turn > limits.angle || long) {
+            places.push(to);
+            return;
+        }
+        let t = match choice.0 {
+            CurveDivision::ControlPoint if curve.degree() > 1 => {
+                farthest_point(curve) as f64 / curve.degree() as f64
+            }
+            _ => 0.5,
+        };
+        let middle = from + (to - from) * t;
+        let (left, right) = curve.split(t);
+        part(&left, (from, middle), limits, choice, depth - 1, places);
+        part(&right, (middle, to), limits, choice, depth - 1, places);
+    }
+    let mut places = vec![0.0];
+    for (k, piece) in run.pieces.iter().enumerate() {
+        let range = (k as f64, (k + 1) as f64);
+        part(&piece.space, range, limits, (division, error), 24, &mut places);
+    }
+    places
+}

@@ -1,0 +1,223 @@
+//! Trim curves lifted to model space: a pcurve composed with the patch it runs on (P2, section 4).
+//!
+//! A curve of degree d on a patch of degrees (m, n) has degree d (m + n) in space. P2 solves for its control
+//! points; composing is exact and well conditioned: with `u = X / W`, `v = Y / W` the point times `W^(m + n)` is
+//! `sum_ij C(m,i) X^i (W - X)^(m-i) C(n,j) Y^j (W - Y)^(n-j) H_ij`, products of Bernstein polynomials, which in scaled
+//! form are convolutions of numbers of one sign. All of it is homogeneous, so rational curves and surfaces are no
+//! special case. A coordinate that stays constant adds no degree.
+
+use glam::{DVec2, DVec3, DVec4};
+
+use crate::kernel::bezier::bernstein::{self, MAX_COUNT, binomial_row};
+use crate::kernel::bezier::{BezierCurve2, BezierCurve3, BezierPatch};
+
+/// Highest degree that is composed exactly; beyond it binomials lose digits and splitting is dear.
+pub const HIGHEST_DEGREE: usize = 60;
+
+/// A polynomial in scaled Bernstein form: coefficient i times `C(degree, i)`.
+type Scaled<T> = Vec<T>;
+
+/// Products of scaled polynomials.
+fn product<T>(a: &[f64], b: &[T]) -> Scaled<T>
+where
+    T: Copy + Default + std::ops::Mul<f64, Output = T> + std::ops::AddAssign,
+{
+    let mut result = vec![T::default(); a.len() + b.len() - 1];
+    for (i, x) in a.iter().enumerate() {
+        for (j, y) in b.iter().enumerate() {
+            result[i + j] += *y * *x;
+        }
+    }
+    result
+}
+
+/// Bernstein basis of degree `n` along a curve: `C(n,k) A^k B^(n-k)`, each of degree `n` times that of A and B.
+fn basis_along(n: usize, a: &[f64], b: &[f64]) -> Vec<Scaled<f64>> {
+    let powers = |x: &[f64]| {
+        let mut powers = vec![vec![1.0]];
+        for k in 0..n {
+            powers.push(product(x, &powers[k]));
+        }
+        powers
+    };
+    let (a, b) = (powers(a), powers(b));
+    let scale = binomial_row(n);
+    (0..=n)
+        .map(|k| {
+            let mut value = product(&a[k], &b[n - k]);
+            value.iter_mut().for_each(|x| *x *= scale[k]);
+            value
+        })
+        .collect()
+}
+
+/// The basis along one coordinate: numbers where the coordinate is constant, polynomials else.
+fn along(degree: usize, coordinates: &[f64], weights: &[f64], scale: &[f64]) -> Vec<Scaled<f64>> {
+    let first = coordinates[0];
+    if coordinates.iter().all(|x| *x == first) {
+        let mut values = [0.0; MAX_COUNT];
+        bernstein::values(degree, first, &mut values);
+        return values[..=degree].iter().map(|b| vec![*b]).collect();
+    }
+    let a: Vec<f64> = coordinates.iter().zip(weights).zip(scale).map(|((x, w), s)| x * w * s).collect();
+    let b: Vec<f64> =
+        coordinates.iter().zip(weights).zip(scale).map(|((x, w), s)| (1.0 - x) * w * s).collect();
+    basis_along(degree, &a, &b)
+}
+
+/// Degree of the image of `curve`, given in the patch's own parameters.
+pub fn lifted_degree(curve: &BezierCurve2, patch: &BezierPatch) -> usize {
+    let varies = |axis: usize| curve.points.iter().any(|p| p[axis] != curve.points[0][axis]);
+    let degree = |axis, n| if varies(axis) { n } else { 0 };
+    curve.degree() * (degree(0, patch.degree_u) + degree(1, patch.degree_v))
+}
+
+/// The image of `curve`, given in the patch's own parameters (0 to 1), in model space. The degree must not exceed
+/// [`HIGHEST_DEGREE`].
+pub fn lift(curve: &BezierCurve2, patch: &BezierPatch) -> BezierCurve3 {
+    let scale = binomial_row(curve.degree());
+    let (us, vs): (Vec<f64>, Vec<f64>) = curve.points.iter().map(|p| (p.x, p.y)).unzip();
+    let bu = along(patch.degree_u, &us, &curve.weights, scale);
+    let bv = along(patch.degree_v, &vs, &curve.weights, scale);
+    // Points relative to the patch's middle lose fewer digits.
+    let origin = patch.bounds().centre();
+    let rows = patch.points.chunks(patch.degree_v + 1).zip(patch.weights.chunks(patch.degree_v + 1));
+    let mut sum = vec![DVec4::ZERO; bu[0].len() + bv[0].len() - 1];
+    for ((points, weights), u) in rows.zip(&bu) {
+        let mut row = vec![DVec4::ZERO; bv[0].len()];
+        for ((p, w), v) in points.iter().zip(weights).zip(&bv) {
+            let h = ((*p - origin) * *w).extend(*w);
+            row.iter_mut().zip(v).for_each(|(r, b)| *r += h * *b);
+        }
+        for (i, a) in u.iter().enumerate() {
+            for (j, b) in row.iter().enumerate() {
+                sum[i + j] += *b * *a;
+            }
+        }
+    }
+    let polynomial = !patch.is_rational() && !curve.is_rational();
+    let scale = binomial_row(sum.len() - 1);
+    let (points, weights) = sum
+        .iter()
+        .zip(scale)
+        .map(|(h, s)| (origin + h.truncate() / h.w, if polynomial { 1.0 } else { h.w / s }))
+        .unzip();
+    reduced(BezierCurve3 { points, weights })
+}
+
+/// Parts of this size of a curve's control polygon count as nothing when its degree is reduced.
+const LOSSLESS: f64 = 1e-13;
+
+/// Lossless degree reduction (P2, section 4, after Farin 1996): from both ends, on homogeneous points; taken
+/// where both passes agree within rounding.
+pub fn reduced(mut curve: BezierCurve3) -> BezierCurve3 {
+    while curve.degree() > 1 {
+        let n = curve.degree();
+        let home: Vec<DVec4> = curve
+            .points
+            .iter()
+            .zip(&curve.weights)
+            .map(|(p, w)| ((*p - curve.points[0]) * *w).extend(*w))
+            .collect();
+        let size = home.iter().map(|h| h.length()).fold(0.0, f64::max);
+        let mut left = vec![home[0]];
+        for i in 1..n {
+            left.push((home[i] * n as f64 - left[i - 1] * i as f64) / (n - i) as f64);
+        }
+        let mut right = vec![home[n]; n];
+        for i in (1..n).rev() {
+            right[i - 1] = (home[i] * n as f64 - right[i] * (n - i) as f64) / i as f64;
+        }
+        let close = left.iter().zip(&right).all(|(a, b)| (*a - *b).abs().max_element() <= LOSSLESS * size);
+        if !close {
+            break;
+        }
+        let middle = n / 2;
+        let home: Vec<DVec4> = (0..n).map(|i| if i < middle { left[i] } else { right[i] }).collect();
+        if home.iter().any(|h| !(h.w > 0.0)) {
+            break;
+        }
+        let origin = curve.points[0];
+        let (first, last) = (curve.points[0], curve.points[n]);
+        let rational = curve.is_rational();
+        curve.points = home.iter().map(|h| origin + h.truncate() / h.w).collect();
+        curve.weights = home.iter().map(|h| if rational { h.w } else { 1.0 }).collect();
+        curve.points[0] = first;
+        curve.points[n - 1] = last;
+    }
+    curve
+}
+
+/// A cubic with the ends and end tangents of `curve` on a surface given by point and derivatives, for
+/// degrees beyond [`HIGHEST_DEGREE`]: good for short pieces only.
+pub fn hermite(start: (DVec3, DVec3), end: (DVec3, DVec3)) -> BezierCurve3 {
+    let points = vec![start.0, start.0 + start.1 / 3.0, end.0 - end.1 / 3.0, end.0];
+    BezierCurve3::polynomial(points)
+}
+
+/// A piece of a uv curve in the own parameters of the patch it runs on.
+pub fn localised(curve: &BezierCurve2, patch: &BezierPatch) -> BezierCurve2 {
+    // Exact where the curve follows a border of the patch, so that constants stay constant.
+    let map = |p: DVec2| patch.local(p);
+    curve.map_points(map)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn patch(rational: bool) -> BezierPatch {
+        let point = |k: usize| {
+            let (i, j) = ((k / 3) as f64, (k % 3) as f64);
+            DVec3::new(i + 0.1 * j, j - 0.2 * i * j, (i * 1.3).sin() + 0.3 * j * j)
+        };
+        BezierPatch {
+            degree_u: 3,
+            degree_v: 2,
+            points: (0..12).map(point).collect(),
+            weights: (0..12).map(|k| if rational { 1.0 + 0.3 * (k % 5) as f64 } else { 1.0 }).collect(),
+            uv_min: DVec2::ZERO,
+            uv_max: DVec2::ONE,
+        }
+    }
+
+    #[test]
+    fn the_lifted_curve_is_the_image_of_the_curve() {
+        let points = vec![DVec2::new(0.1, 0.2), DVec2::new(0.9, 0.1), DVec2::new(0.4, 0.8)];
+        for (rational, weights) in [(false, [1.0; 3]), (true, [1.0; 3]), (true, [1.0, 0.4, 2.0])] {
+            let (patch, curve) =
+                (patch(rational), BezierCurve2 { points: points.clone(), weights: weights.to_vec() });
+            let lifted = lift(&curve, &patch);
+            assert!(lifted.degree() <= 10);
+            for k in 0..=20 {
+                let t = f64::from(k) / 20.0;
+                let uv = curve.point(t);
+                let off = lifted.point(t).distance(patch.point(uv.x, uv.y));
+                assert!(off < 1e-13, "{off:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn iso_curves_keep_the_degree_of_the_patch() {
+        let line = BezierCurve2::polynomial(vec![DVec2::new(0.0, 0.3), DVec2::new(1.0, 0.3)]);
+        let lifted = lift(&line, &patch(true));
+        assert_eq!(lifted.degree(), 3);
+        assert_eq!(lifted_degree(&line, &patch(true)), 3);
+    }
+
+    #[test]
+    fn elevated_curves_come_back_to_their_degree() {
+        let points = vec![DVec3::ZERO, DVec3::new(1.0, 2.0, 0.0), DVec3::new(3.0, 1.0, 4.0)];
+        for weights in [vec![1.0; 3], vec![1.0, 0.5, 2.0]] {
+            let curve = BezierCurve3 { points: points.clone(), weights };
+            let back = reduced(curve.elevated(4));
+            assert_eq!(back.degree(), 2);
+            assert!(
+                (0..=10)
+                    .all(|k| back.point(f64::from(k) / 10.0).distance(curve.point(f64::from(k) / 10.0))
+                        < 1e-12)
+            );
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Triangles with a guaranteed error for trimmed faces.
+//!
+//! Trim curves are lifted to model space ([`lift`], [`outline`]) and divided into chords ([`chords`]) independently of the
+//! surface, which is divided until it is as close to its triangles as asked ([`refine`], [`flatness`]); both meet in a
+//! constrained Delaunay triangulation in parameters ([`triangulate`]). Unlike in the paper no vertex is ever put on a chord
+//! where the surface's cells cross it, so that two faces that share chords share all their vertices there.
+//! [`untrimmed`] gives the surface alone, by the paper's kd-tree.
+//!
+//! Source (P2): A. Balazs, M. Guthe, R. Klein, "Efficient trimmed NURBS tessellation", 2004.
+//!
+//! Invariants: the same input gives the same mesh bit for bit; vertices of the boundary are where they were asked to be;
+//! triangles are counter-clockwise against `du x dv`.
+
+pub mod bilinear;
+pub mod chords;
+pub mod flatness;
+pub mod kd_tree;
+pub mod lift;
+pub mod line_error;
+pub mod mesh;
+pub mod options;
+pub mod outline;
+pub mod plane;
+pub mod refine;
+pub mod simplify;
+pub mod tessellator;
+pub mod triangulate;
+pub mod untrimmed;
+
+pub use chords::{ChordLimits, EdgeSample};
+pub use mesh::{FaceMesh, Quality};
+pub use options::{CurveDivision, CurveError, SurfaceDivision, TessellateError, TessellationOptions};
+pub use outline::{Ground, Outline, Run};
+pub use tessellator::{Boundary, LongChord, Tessellator, tessellate, tessellate_with};
+pub use untrimmed::{UntrimmedMesh, untrimmed};

@@ -1,0 +1,255 @@
+//! The boundary of a face as it is after all repairs, lifted to model space.
+//!
+//! Every chain of trim pieces becomes runs: stretches that come from one curve of the loop record. Pieces are cut where
+//! they cross the lines between patches, so that each lies on one patch, and lifted exactly ([`super::lift`]). A run is
+//! parametrised by `s` from 0 to its number of pieces. Invariant: a run starts where the one before it in its chain ends.
+
+use glam::{DVec2, DVec3};
+
+use super::lift::{self, HIGHEST_DEGREE};
+use crate::kernel::bezier::{BezierCurve2, BezierCurve3, BezierPatch, Tangents};
+use crate::kernel::face::Face;
+use crate::kernel::query::Sheet;
+
+/// A piece of a trim curve on one patch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LiftedPiece {
+    /// The pcurve in native parameters.
+    pub uv: BezierCurve2,
+    /// Its image.
+    pub space: BezierCurve3,
+}
+
+/// Part of a chain that comes from one trim curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Number of the curve in its loop record; `None` for lines that close gaps.
+    pub source: Option<u32>,
+    /// End to end.
+    pub pieces: Vec<LiftedPiece>,
+}
+
+/// All chains of a face.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Outline {
+    /// Runs of each chain, end to end and closed.
+    pub chains: Vec<Vec<Run>>,
+}
+
+/// A face's surface as patches, everywhere: points off the patches belong to the nearest one.
+#[derive(Debug, Clone)]
+pub struct Ground<'a> {
+    /// The patches by their parameters.
+    pub sheet: Sheet<'a>,
+    patches: &'a [BezierPatch],
+}
+
+impl<'a> Ground<'a> {
+    /// The surface of `face`.
+    pub fn new(face: &'a Face) -> Self {
+        Self { sheet: Sheet::new(&face.patches), patches: &face.patches }
+    }
+
+    /// The patches.
+    pub fn patches(&self) -> &'a [BezierPatch] {
+        self.patches
+    }
+
+    /// The patch for `uv` (native) and the parameters on it; `None` without any patches.
+    pub fn locate(&self, uv: DVec2) -> Option<(&'a BezierPatch, DVec2)> {
+        self.sheet.locate(uv).or_else(|| {
+            let off = |p: &&BezierPatch| uv.clamp(p.uv_min, p.uv_max).distance_squared(uv);
+            let nearest = self.patches.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+            Some((nearest, nearest.local(uv).clamp(DVec2::ZERO, DVec2::ONE)))
+        })
+    }
+
+    /// The point at `uv`.
+    pub fn point(&self, uv: DVec2) -> DVec3 {
+        self.locate(uv).map_or(DVec3::NAN, |(patch, local)| patch.point(local.x, local.y))
+    }
+
+    /// Point and derivatives in native parameters at `uv`.
+    pub fn tangents(&self, uv: DVec2) -> Tangents {
+        let nothing = Tangents { point: DVec3::NAN, du: DVec3::ZERO, dv: DVec3::ZERO };
+        self.locate(uv).map_or(nothing, |(patch, local)| {
+            let at = patch.tangents(local.x, local.y);
+            let size = patch.uv_max - patch.uv_min;
+            Tangents { point: at.point, du: at.du / size.x, dv: at.dv / size.y }
+        })
+    }
+}
+
+impl Run {
+    /// Number of pieces: the range of `s`.
+    pub fn range(&self) -> f64 {
+        self.pieces.len() as f64
+    }
+
+    fn at(&self, s: f64) -> (&LiftedPiece, f64) {
+        let k = (s.max(0.0) as usize).min(self.pieces.len() - 1);
+        (&self.pieces[k], s - k as f64)
+    }
+
+    /// Native parameters at `s`.
+    pub fn uv(&self, s: f64) -> DVec2 {
+        let (piece, t) = self.at(s);
+        end_or(&piece.uv, t)
+    }
+
+    /// Point at `s`.
+    pub fn point(&self, s: f64) -> DVec3 {
+        let (piece, t) = self.at(s);
+        end_or(&piece.space, t)
+    }
+
+    /// First and last point.
+    pub fn ends(&self) -> [DVec3; 2] {
+        [self.point(0.0), self.point(self.range())]
+    }
+}
+
+/// The curve at `t`, exactly its end points at the ends.
+fn end_or<V: crate::kernel::vector::Vector>(curve: &crate::kernel::bezier::BezierCurve<V>, t: f64) -> V {
+    match t {
+        0.0 => curve.start(),
+        1.0 => curve.end(),
+        _ => curve.point(t),
+    }
+}
+
+impl Outline {
+    /// The outline of `face` over its `ground`. Where a degree is too high to be composed exactly the
+    /// image is fitted to within `precision` (model units).
+    pub fn new(face: &Face, ground: &Ground, precision: f64) -> Self {
+        let chain = |index: usize| {
+            let mut runs: Vec<Run> = Vec::new();
+            for piece in &face.pieces.pieces()[face.pieces.chain(index)] {
+                let points = face.pieces.points(piece).iter().map(|p| face.domain.native(*p)).collect();
+                let curve = BezierCurve2 { points, weights: face.pieces.weights(piece).to_vec() };
+                if runs.last().is_none_or(|r| r.source != piece.source) {
+                    runs.push(Run { source: piece.source, pieces: Vec::new() });
+                }
+                if let Some(run) = runs.last_mut() {
+                    cut_and_lift(&curve, ground, precision, &mut run.pieces);
+                }
+            }
+            runs.retain(|run| !run.pieces.is_empty());
+            runs
+        };
+        Self { chains: (0..face.pieces.chain_count()).map(chain).collect() }
+    }
+
+    /// All runs with the numbers of their chain and place in it.
+    pub fn runs(&self) -> impl Iterator<Item = (usize, usize, &Run)> {
+        let chains = self.chains.iter().enumerate();
+        chains.flat_map(|(c, runs)| runs.iter().enumerate().map(move |(r, run)| (c, r, run)))
+    }
+}
+
+/// Cuts a monotone curve at the lines between patches and lifts the parts.
+fn cut_and_lift(curve: &BezierCurve2, ground: &Ground, precision: f64, pieces: &mut Vec<LiftedPiece>) {
+    let mut cuts = vec![0.0];
+    for (axis, lines) in [(0, ground.sheet.u_lines()), (1, ground.sheet.v_lines())] {
+        let (a, b) = (curve.start()[axis], curve.end()[axis]);
+        let (low, high) = (a.min(b), a.max(b));
+        // A line that hardly reaches across a border of a patch stays whole.
+        let slack = 1e-9 * (high - low);
+        let inside = lines.iter().filter(|x| **x > low + slack && **x < high - slack);
+        cuts.extend(inside.map(|x| crossing(curve, axis, *x)));
+    }
+    cuts.push(1.0);
+    cuts.sort_unstable_by(f64::total_cmp);
+    cuts.dedup_by(|b, a| *b - *a < 1e-9);
+    if let Some(last) = cuts.last_mut() {
+        *last = 1.0;
+    }
+    let parts = cuts.len() - 1;
+    let mut from = curve.start();
+    for k in 0..parts {
+        let mut part = if parts == 1 { curve.clone() } else { curve.restrict(cuts[k], cuts[k + 1]) };
+        let last = part.points.len() - 1;
+        part.points[0] = from;
+        if k + 1 == parts {
+            part.points[last] = curve.end();
+        }
+        from = part.points[last];
+        lift_part(part, ground, precision, pieces);
+    }
+}
+
+/// Where a monotone curve has the coordinate `x`.
+fn crossing(curve: &BezierCurve2, axis: usize, x: f64) -> f64 {
+    let (a, b) = (curve.start()[axis], curve.end()[axis]);
+    if curve.degree() == 1 && !curve.is_rational() {
+        return (x - a) / (b - a);
+    }
+    let rising = b > a;
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..52 {
+        let t = 0.5 * (low + high);
+        if (curve.point(t)[axis] < x) == rising {
+            low = t;
+        } else {
+            high = t;
+        }
+    }
+    0.5 * (low + high)
+}
+
+fn lift_part(uv: BezierCurve2, ground: &Ground, precision: f64, pieces: &mut Vec<LiftedPiece>) {
+    let middle = uv.point(0.5);
+    let Some((patch, _)) = ground.locate(inward(ground, middle)) else { return };
+    let local = lift::localised(&uv, patch);
+    let mut space = Vec::new();
+    if lift::lifted_degree(&local, patch) <= HIGHEST_DEGREE {
+        space.push((uv, lift::lift(&local, patch)));
+    } else {
+        fit(&uv, patch, precision, 12, &mut space);
+    }
+    for (uv, mut space) in space {
+        if let Some(before) = pieces.last() {
+            space.points[0] = before.space.end();
+        }
+        pieces.push(LiftedPiece { uv, space });
+    }
+}
+
+/// A place next to `uv` that has a patch: curves along the outside of the last patch needed are its border.
+fn inward(ground: &Ground, uv: DVec2) -> DVec2 {
+    if ground.sheet.locate(uv).is_some() {
+        return uv;
+    }
+    let (us, vs) = (ground.sheet.u_lines(), ground.sheet.v_lines());
+    let (Some(first), Some(last)) = (us.first().zip(vs.first()), us.last().zip(vs.last())) else { return uv };
+    let step = 1e-9 * (DVec2::new(*last.0, *last.1) - DVec2::new(*first.0, *first.1));
+    let around = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
+    let near = around.map(|(x, y)| uv + step * DVec2::new(x, y));
+    near.into_iter().find(|p| ground.sheet.locate(*p).is_some()).unwrap_or(uv)
+}
+
+/// Cubics that follow the image of `uv` to within `precision` at three points each.
+fn fit(
+    uv: &BezierCurve2,
+    patch: &BezierPatch,
+    precision: f64,
+    depth: u32,
+    out: &mut Vec<(BezierCurve2, BezierCurve3)>,
+) {
+    let jet = |t: f64| {
+        let (point, d) = uv.tangent(t);
+        let local = patch.local(point);
+        let at = patch.tangents(local.x, local.y);
+        let d = d / (patch.uv_max - patch.uv_min);
+        (at.point, at.du * d.x + at.dv * d.y)
+    };
+    let cubic = lift::hermite(jet(0.0), jet(1.0));
+    let off = [0.25, 0.5, 0.75].map(|t| cubic.point(t).distance(jet(t).0));
+    if depth == 0 || off.iter().all(|d| *d <= precision) {
+        out.push((uv.clone(), cubic));
+        return;
+    }
+    let (left, right) = uv.split(0.5);
+    fit(&left, patch, precision, depth - 1, out);
+    fit(&right, patch, precision, depth - 1, out);
+}

@@ -1,0 +1,289 @@
+//! Vertices inside a face until every triangle is close enough to the surface.
+//!
+//! Triangles wait in a queue, the worst first. A triangle is divided on the edge that bends most away from the
+//! surface, or in its middle where no edge stands out or that edge bounds the face. Chords of the boundary are never divided
+//! here, for neighbours share them: those that keep a triangle from its tolerance are handed back.
+
+use std::cmp::Ordering;
+use std::collections::{BTreeSet, BinaryHeap};
+
+use glam::{DVec2, DVec3};
+use spade::handles::FixedVertexHandle;
+
+use super::flatness::Flatness;
+use super::options::{TessellateError, TessellationOptions};
+use super::outline::Ground;
+use super::triangulate::{Chord, Region};
+use super::untrimmed::normal;
+use crate::kernel::trim::UvRect;
+
+/// Vertices of a mesh in the making.
+#[derive(Debug, Clone, Default)]
+pub struct Vertices {
+    /// Native parameters.
+    pub uvs: Vec<DVec2>,
+    /// Points of the surface there.
+    pub on_surface: Vec<DVec3>,
+    /// Positions in the mesh: shared ones on the boundary.
+    pub positions: Vec<DVec3>,
+    /// Unit normals of the surface.
+    pub normals: Vec<DVec3>,
+}
+
+/// Everything a refinement looks at.
+pub struct Refinement<'a> {
+    /// The surface.
+    pub ground: &'a Ground<'a>,
+    /// Proven bounds, when they are asked for.
+    pub flatness: Option<&'a Flatness>,
+    /// Whether the surface is flat, so that only angle and length count.
+    pub planar: bool,
+    /// The tolerance and the other limits.
+    pub options: &'a TessellationOptions,
+    /// Places in the triangulation per native parameters; for planes the place is found by position.
+    pub scale: DVec2,
+    /// Rectangle of the face.
+    pub domain: UvRect,
+}
+
+/// What came of a refinement.
+#[derive(Debug, Clone, Default)]
+pub struct Refined {
+    /// Largest error of the triangles that were within the tolerance.
+    pub error: f64,
+    /// Triangles that stayed over the tolerance.
+    pub over: usize,
+    /// Chords of the boundary that kept them there.
+    pub stubborn: BTreeSet<Chord>,
+}
+
+/// A triangle to look at.
+struct Task {
+    /// Its worst measure over its limit: above 1 it must be divided.
+    excess: f64,
+    corners: [FixedVertexHandle; 3],
+    divide: Divide,
+    error: f64,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Divide {
+    Edge(usize),
+    Middle,
+}
+
+impl PartialEq for Task {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Task {}
+impl PartialOrd for Task {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Task {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let order = |t: &Self| t.corners.map(|c| c.index());
+        self.excess.total_cmp(&other.excess).then_with(|| order(other).cmp(&order(self)))
+    }
+}
+
+/// Edges that bring in less than this share of the allowed error are not divided for it.
+const STANDS_OUT: f64 = 0.55;
+/// A boundary chord that alone brings in this share of the allowed error is at fault itself.
+const AT_FAULT: f64 = 0.8;
+/// Edges shorter than this part of the face's parameters are not divided.
+const SHORTEST: f64 = 1e-7;
+
+impl Refinement<'_> {
+    /// Divides triangles of `region` until all limits hold.
+    ///
+    /// # Errors
+    /// Too many triangles, or called off.
+    pub fn run(
+        &self,
+        region: &mut Region,
+        vertices: &mut Vertices,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Result<Refined, TessellateError> {
+        let mut refined = Refined::default();
+        let mut queue: BinaryHeap<Task> = BinaryHeap::new();
+        let first: Vec<_> = region.corners().collect();
+        for corners in first {
+            self.judge(region, vertices, corners, &mut queue, &mut refined);
+        }
+        let mut steps = 0usize;
+        while let Some(task) = queue.pop() {
+            steps += 1;
+            if steps.is_multiple_of(256) && cancelled() {
+                return Err(TessellateError::Cancelled);
+            }
+            let Some(bounds) = region.standing(task.corners) else { continue };
+            let numbers = task.corners.map(|c| region.number(c));
+            let uv = numbers.map(|n| vertices.uvs[n as usize]);
+            let at = match task.divide {
+                Divide::Edge(k) if !bounds[k] => 0.5 * (uv[k] + uv[(k + 1) % 3]),
+                _ => (uv[0] + uv[1] + uv[2]) / 3.0,
+            };
+            let mut done = self.put(region, vertices, at, task.corners[0]);
+            if done.is_none() && task.divide != Divide::Middle {
+                done = self.put(region, vertices, (uv[0] + uv[1] + uv[2]) / 3.0, task.corners[0]);
+            }
+            match done {
+                Some(around) => {
+                    for corners in around {
+                        self.judge(region, vertices, corners, &mut queue, &mut refined);
+                    }
+                }
+                None => {
+                    refined.over += 1;
+                    refined.error = refined.error.max(task.error);
+                }
+            }
+            if region.len() > self.options.triangle_limit {
+                return Err(TessellateError::TooManyTriangles { limit: self.options.triangle_limit });
+            }
+        }
+        Ok(refined)
+    }
+
+    fn put(
+        &self,
+        region: &mut Region,
+        vertices: &mut Vertices,
+        uv: DVec2,
+        hint: FixedVertexHandle,
+    ) -> Option<Vec<[FixedVertexHandle; 3]>> {
+        let number = vertices.uvs.len() as u32;
+        let around = region.insert(uv * self.scale, number, hint)?;
+        self.add(vertices, uv);
+        Some(around)
+    }
+
+    /// Adds a vertex on the surface.
+    pub fn add(&self, vertices: &mut Vertices, uv: DVec2) {
+        let p = self.ground.point(uv);
+        vertices.uvs.push(uv);
+        vertices.on_surface.push(p);
+        vertices.positions.push(p);
+        vertices.normals.push(normal(self.ground, uv, &self.domain, 1e-6 * self.domain.size()));
+    }
+
+    /// Measures a triangle; queues it when it is over a limit.
+    fn judge(
+        &self,
+        region: &Region,
+        vertices: &Vertices,
+        corners: [FixedVertexHandle; 3],
+        queue: &mut BinaryHeap<Task>,
+        refined: &mut Refined,
+    ) {
+        let numbers = corners.map(|c| region.number(c));
+        let uv = numbers.map(|n| vertices.uvs[n as usize]);
+        let p = numbers.map(|n| vertices.on_surface[n as usize]);
+        let gap = numbers.map(|n| p_gap(vertices, n)).into_iter().fold(0.0, f64::max);
+        let tolerance = self.options.tolerance;
+        let allowed = (tolerance - gap).max(0.5 * tolerance);
+        let (error, shares) = self.error(uv, p);
+        let mut excess = error / allowed;
+        let Some(bounds) = region.standing(corners) else { return };
+        let mut divide = self.weakest(&bounds, shares, allowed, &numbers, refined, excess > 1.0);
+        let lengths = [0, 1, 2].map(|k| p[k].distance(p[(k + 1) % 3]));
+        if let Some(longest) = self.options.max_edge {
+            let worst = free_longest(&lengths, &bounds);
+            if let Some(k) = worst
+                && lengths[k] / longest > excess.max(1.0)
+            {
+                (excess, divide) = (lengths[k] / longest, Some(Divide::Edge(k)));
+            }
+        }
+        if let Some(limit) = self.options.max_angle
+            && !self.planar
+        {
+            let n = numbers.map(|n| vertices.normals[n as usize]);
+            let angle = [0, 1, 2].map(|k| n[k].angle_between(n[(k + 1) % 3])).into_iter().fold(0.0, f64::max);
+            if angle / limit > excess.max(1.0) {
+                excess = angle / limit;
+                divide = Some(free_longest(&lengths, &bounds).map_or(Divide::Middle, Divide::Edge));
+            }
+        }
+        if !(excess > 1.0) {
+            refined.error = refined.error.max(error + gap);
+            return;
+        }
+        let size = self.domain.size();
+        let extent = [0, 1, 2].map(|k| ((uv[(k + 1) % 3] - uv[k]) / size).abs().max_element());
+        let small = extent.into_iter().fold(0.0, f64::max) < SHORTEST;
+        match divide {
+            Some(divide) if !small => queue.push(Task { excess, corners, divide, error: error + gap }),
+            _ => {
+                refined.over += 1;
+                refined.error = refined.error.max(error + gap);
+            }
+        }
+    }
+
+    /// Where to divide a triangle; `None` when only boundary chords are at fault.
+    fn weakest(
+        &self,
+        bounds: &[bool; 3],
+        shares: [f64; 3],
+        allowed: f64,
+        numbers: &[u32; 3],
+        refined: &mut Refined,
+        over: bool,
+    ) -> Option<Divide> {
+        let free = (0..3).filter(|k| !bounds[*k]);
+        let best = free.max_by(|a, b| shares[*a].total_cmp(&shares[*b]));
+        let bound_worst = (0..3).filter(|k| bounds[*k]).max_by(|a, b| shares[*a].total_cmp(&shares[*b]));
+        if let Some(k) = bound_worst
+            && over
+            && shares[k] > AT_FAULT * allowed
+        {
+            refined.stubborn.insert([numbers[k], numbers[(k + 1) % 3]]);
+            if best.is_none_or(|b| shares[b] < AT_FAULT * allowed) {
+                return None;
+            }
+        }
+        match best {
+            Some(k) if shares[k] > STANDS_OUT * shares.iter().sum::<f64>().min(2.0 * allowed) => {
+                Some(Divide::Edge(k))
+            }
+            Some(k) if bound_worst.is_none() && shares[k] > allowed => Some(Divide::Edge(k)),
+            _ => Some(Divide::Middle),
+        }
+    }
+
+    /// Error of a triangle and the shares of its edges.
+    fn error(&self, uv: [DVec2; 3], p: [DVec3; 3]) -> (f64, [f64; 3]) {
+        if self.planar {
+            return (0.0, [0.0; 3]);
+        }
+        if let Some(flatness) = self.flatness {
+            let found = flatness.triangle(uv, p);
+            return (found.error, found.edges);
+        }
+        let normal = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
+        let off = |at: DVec2| {
+            let d = self.ground.point(at) - p[0];
+            if normal == DVec3::ZERO { d.length() } else { d.dot(normal).abs() }
+        };
+        let edges = [0, 1, 2].map(|k| {
+            let to = (k + 1) % 3;
+            let d = self.ground.point(0.5 * (uv[k] + uv[to])) - 0.5 * (p[k] + p[to]);
+            if normal == DVec3::ZERO { d.length() } else { d.dot(normal).abs() }
+        });
+        let middle = off((uv[0] + uv[1] + uv[2]) / 3.0);
+        (edges.into_iter().fold(middle, f64::max), edges)
+    }
+}
+
+fn p_gap(vertices: &Vertices, n: u32) -> f64 {
+    vertices.positions[n as usize].distance(vertices.on_surface[n as usize])
+}
+
+fn free_longest(lengths: &[f64; 3], bounds: &[bool; 3]) -> Option<usize> {
+    (0..3).filter(|k| !bounds[*k]).max_by(|a, b| lengths[*a].total_cmp(&lengths[*b]))
+}

@@ -1,0 +1,319 @@
+//! From a face to its mesh: outline, chords, triangulation, refinement.
+//!
+//! [`Tessellator`] keeps the steps apart, because faces that share edges must agree on their chords first: the caller may
+//! take each run's chords from elsewhere ([`Tessellator::mesh`]) and is told which of them the face cannot live with.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec3};
+
+use super::chords::{ChordLimits, EdgeSample, divide};
+use super::flatness::Flatness;
+use super::mesh::{FaceMesh, Quality};
+use super::options::{TessellateError, TessellationOptions};
+use super::outline::{Ground, Outline};
+use super::plane::Plane;
+use super::refine::{Refinement, Vertices};
+use super::simplify::simplify;
+use super::triangulate::Region;
+use crate::kernel::face::Face;
+
+/// Vertices along every run of a face, `[chain][run]`, both ends of each included.
+pub type Boundary = Vec<Vec<Vec<EdgeSample>>>;
+
+/// A chord that is too long for a face: between samples `index` and `index + 1` of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct LongChord {
+    /// Chain of the outline.
+    pub chain: usize,
+    /// Run of the chain.
+    pub run: usize,
+    /// Sample that it starts from.
+    pub index: usize,
+}
+
+/// A face ready to be meshed.
+pub struct Tessellator<'a> {
+    face: &'a Face,
+    ground: Ground<'a>,
+    outline: Outline,
+    plane: Option<Plane>,
+    options: TessellationOptions,
+    tolerance: f64,
+}
+
+/// Share of the tolerance within which a face counts as plane.
+const FLAT: f64 = 1e-3;
+/// Share of the tolerance that bounds may be too wide by.
+const SLACK: f64 = 0.04;
+/// Chords keep to this share, because triangles beside them bend as much and more.
+const CHORD_SHARE: f64 = 0.95;
+/// Rounds in which chords are divided for the sake of the face.
+const ROUNDS: usize = 6;
+
+impl<'a> Tessellator<'a> {
+    /// Lifts the outline of `face`.
+    ///
+    /// # Errors
+    /// Bad options, or nothing inside the loops.
+    pub fn new(face: &'a Face, options: &TessellationOptions) -> Result<Self, TessellateError> {
+        options.check()?;
+        if face.patches.is_empty() {
+            return Err(TessellateError::Empty);
+        }
+        let ground = Ground::new(face);
+        for patch in ground.patches() {
+            let bounds = patch.bounds();
+            if !(bounds.min.is_finite() && bounds.max.is_finite()) {
+                return Err(TessellateError::NotFinite { u: patch.uv_min.x, v: patch.uv_min.y });
+            }
+        }
+        let outline = Outline::new(face, &ground, 1e-3 * options.tolerance);
+        let plane = Plane::of(&ground, FLAT * options.tolerance);
+        Ok(Self { face, ground, outline, plane, options: options.clone(), tolerance: options.tolerance })
+    }
+
+    /// The face's outline in space.
+    pub fn outline(&self) -> &Outline {
+        &self.outline
+    }
+
+    /// Chords of every run by the face's own choice: a function of the run alone.
+    pub fn own_boundary(&self) -> Boundary {
+        let mut limits = ChordLimits::new(&self.options);
+        limits.tolerance *= CHORD_SHARE;
+        let runs = self.outline.chains.iter();
+        runs.map(|chain| chain.iter().map(|run| divide(run, &limits, &self.options)).collect()).collect()
+    }
+
+    /// The mesh within `boundary`, and the chords of it that are too long for this face.
+    ///
+    /// # Errors
+    /// See [`TessellateError`].
+    pub fn mesh(
+        &self,
+        boundary: &Boundary,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Result<(FaceMesh, Vec<LongChord>), TessellateError> {
+        let flatness = (self.options.conservative && self.plane.is_none())
+            .then(|| Flatness::new(&self.ground, SLACK * self.tolerance));
+        let scale = self.scale();
+        let refinement = Refinement {
+            ground: &self.ground,
+            flatness: flatness.as_ref(),
+            planar: self.plane.is_some(),
+            options: &self.options,
+            scale,
+            domain: self.face.domain,
+        };
+        let mut long = self.long_chords(boundary, flatness.as_ref());
+        let mut vertices = Vertices::default();
+        let mut quality = Quality::default();
+        let mut loops: Vec<Vec<u32>> = Vec::new();
+        let mut owners: BTreeMap<[u32; 2], LongChord> = BTreeMap::new();
+        for (chain, runs) in boundary.iter().enumerate() {
+            let mut ring = Vec::new();
+            for (run, samples) in runs.iter().enumerate() {
+                for (index, sample) in samples.iter().enumerate().take(samples.len().saturating_sub(1)) {
+                    let number = vertices.uvs.len() as u32;
+                    ring.push((number, LongChord { chain, run, index }));
+                    refinement.add(&mut vertices, sample.uv);
+                    let last = vertices.positions.len() - 1;
+                    vertices.positions[last] = sample.point;
+                    quality.gap = quality.gap.max(sample.point.distance(vertices.on_surface[last]));
+                    if !(sample.point.is_finite() && vertices.on_surface[last].is_finite()) {
+                        return Err(TessellateError::NotFinite { u: sample.uv.x, v: sample.uv.y });
+                    }
+                }
+            }
+            for (k, (number, owner)) in ring.iter().enumerate() {
+                owners.insert([*number, ring[(k + 1) % ring.len()].0], *owner);
+            }
+            loops.push(ring.into_iter().map(|r| r.0).collect());
+        }
+        let places: Vec<DVec2> = match &self.plane {
+            Some(plane) => vertices.positions.iter().map(|p| plane.coordinates(*p)).collect(),
+            None => vertices.uvs.iter().map(|uv| *uv * scale).collect(),
+        };
+        let (mut region, crossings) = Region::new(&places, &loops);
+        quality.crossings = crossings.places.len();
+        for (a, b) in &crossings.pairs {
+            for chord in [*a, *b, [a[1], a[0]], [b[1], b[0]]] {
+                long.extend(owners.get(&chord));
+            }
+        }
+        for place in &crossings.places {
+            self.add_crossing(*place, &refinement, &mut vertices);
+        }
+        if !(self.plane.is_some() && self.options.max_edge.is_none()) {
+            let refined = refinement.run(&mut region, &mut vertices, cancelled)?;
+            quality.error = refined.error;
+            quality.over_tolerance = refined.over;
+            for chord in refined.stubborn {
+                long.extend(owners.get(&chord).or_else(|| owners.get(&[chord[1], chord[0]])));
+            }
+        } else {
+            quality.error = FLAT * self.tolerance + quality.gap;
+        }
+        quality.evaluations = vertices.uvs.len();
+        let reversed = self.plane.is_none() && scale.x * scale.y < 0.0;
+        let triangles: Vec<[u32; 3]> =
+            region.triangles().map(|[a, b, c]| if reversed { [a, c, b] } else { [a, b, c] }).collect();
+        let mesh = finish(vertices, triangles, loops, quality);
+        if mesh.triangles.len() > self.options.triangle_limit {
+            return Err(TessellateError::TooManyTriangles { limit: self.options.triangle_limit });
+        }
+        long.sort_unstable();
+        long.dedup();
+        Ok((mesh, long))
+    }
+
+    /// Chords whose straight line in parameters leaves the chord by more than the tolerance.
+    fn long_chords(&self, boundary: &Boundary, flatness: Option<&Flatness>) -> Vec<LongChord> {
+        let Some(flatness) = flatness else { return Vec::new() };
+        let mut long = Vec::new();
+        for (chain, runs) in boundary.iter().enumerate() {
+            for (run, samples) in runs.iter().enumerate() {
+                for (index, pair) in samples.windows(2).enumerate() {
+                    let uv = [pair[0].uv, pair[1].uv];
+                    let p = uv.map(|uv| self.ground.point(uv));
+                    if flatness.chord(uv, p) > self.tolerance && p[0].distance(p[1]) > 1e-3 * self.tolerance {
+                        long.push(LongChord { chain, run, index });
+                    }
+                }
+            }
+        }
+        long
+    }
+
+    /// A vertex where two chords cross.
+    fn add_crossing(&self, place: DVec2, refinement: &Refinement, vertices: &mut Vertices) {
+        match &self.plane {
+            None => refinement.add(vertices, place / refinement.scale),
+            Some(plane) => {
+                let p = plane.origin + plane.x * place.x + plane.y * place.y;
+                vertices.uvs.push(self.face.domain.min);
+                vertices.on_surface.push(p);
+                vertices.positions.push(p);
+                vertices.normals.push(plane.normal());
+            }
+        }
+    }
+
+    /// Factors that make the parameters even in what they do to the error: lengths of about one in either direction
+    /// are what one triangle can span.
+    fn scale(&self) -> DVec2 {
+        const SAMPLES: usize = 5;
+        let domain = self.face.domain;
+        let size = domain.size();
+        let mut bend = DVec2::ZERO;
+        let mut speed = DVec2::ZERO;
+        for k in 0..SAMPLES * SAMPLES {
+            let share = DVec2::new((k % SAMPLES) as f64 + 0.5, (k / SAMPLES) as f64 + 0.5) / SAMPLES as f64;
+            let Some((patch, local)) = self.ground.locate(domain.min + size * share) else { continue };
+            let jet = patch.jet(local.x, local.y);
+            let width = patch.uv_max - patch.uv_min;
+            let normal = jet.du.cross(jet.dv).normalize_or_zero();
+            let curved = DVec2::new(jet.duu.dot(normal).abs(), jet.dvv.dot(normal).abs()) / (width * width);
+            bend += curved / (SAMPLES * SAMPLES) as f64;
+            speed += DVec2::new(jet.du.length(), jet.dv.length()) / width / (SAMPLES * SAMPLES) as f64;
+        }
+        let reach = |axis: usize| {
+            let flat = (8.0 * self.tolerance / bend[axis].max(f64::MIN_POSITIVE)).sqrt();
+            flat.min(size[axis])
+        };
+        let step = DVec2::new(reach(0), reach(1));
+        let length = step * speed;
+        // Triangles much longer than wide are hard on everything downstream.
+        const LONGEST: f64 = 300.0;
+        let limit = LONGEST * length.min_element();
+        let step = DVec2::new(
+            if length.x > limit && speed.x > 0.0 { limit / speed.x } else { step.x },
+            if length.y > limit && speed.y > 0.0 { limit / speed.y } else { step.y },
+        );
+        let scale = 1.0 / step;
+        if scale.is_finite() && scale.min_element() > 0.0 { scale } else { 1.0 / size }
+    }
+}
+
+/// Leaves out vertices without triangles and triangles without area, and names what is left anew.
+fn finish(vertices: Vertices, triangles: Vec<[u32; 3]>, loops: Vec<Vec<u32>>, quality: Quality) -> FaceMesh {
+    let at = |i: u32| vertices.positions[i as usize];
+    let solid = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(at);
+        a != b && b != c && c != a
+    };
+    let mut triangles: Vec<[u32; 3]> = triangles.into_iter().filter(solid).collect();
+    triangles.sort_unstable();
+    let mut used = vec![false; vertices.uvs.len()];
+    triangles.iter().flatten().for_each(|v| used[*v as usize] = true);
+    let mut name = vec![u32::MAX; used.len()];
+    let mut mesh = FaceMesh { quality, ..FaceMesh::default() };
+    for (k, _) in used.iter().enumerate().filter(|u| *u.1) {
+        name[k] = mesh.positions.len() as u32;
+        mesh.positions.push(vertices.positions[k]);
+        mesh.normals.push(vertices.normals[k]);
+        mesh.uvs.push(vertices.uvs[k]);
+    }
+    mesh.triangles = triangles.into_iter().map(|t| t.map(|v| name[v as usize])).collect();
+    let kept =
+        |ring: Vec<u32>| ring.into_iter().map(|v| name[v as usize]).filter(|v| *v != u32::MAX).collect();
+    mesh.loops = loops.into_iter().map(kept).collect();
+    mesh
+}
+
+/// The mesh of a single face, its boundary divided by its own needs.
+///
+/// # Errors
+/// See [`TessellateError`].
+pub fn tessellate(face: &Face, options: &TessellationOptions) -> Result<FaceMesh, TessellateError> {
+    tessellate_with(face, options, &|| false)
+}
+
+/// The same, given up when `cancelled` says so.
+///
+/// # Errors
+/// See [`TessellateError`].
+pub fn tessellate_with(
+    face: &Face,
+    options: &TessellationOptions,
+    cancelled: &dyn Fn() -> bool,
+) -> Result<FaceMesh, TessellateError> {
+    let tessellator = Tessellator::new(face, options)?;
+    let mut boundary = tessellator.own_boundary();
+    if options.simplify {
+        let rest = (1.0 - options.gamma) * options.tolerance;
+        let longest = options.max_edge.unwrap_or(f64::INFINITY);
+        for samples in boundary.iter_mut().flatten() {
+            *samples = simplify(samples, rest, longest);
+        }
+    }
+    for _ in 0..ROUNDS {
+        let (mesh, long) = tessellator.mesh(&boundary, cancelled)?;
+        if long.is_empty() {
+            return Ok(mesh);
+        }
+        for chord in long.iter().rev() {
+            let run = &tessellator.outline.chains[chord.chain][chord.run];
+            halve_chord(run, &mut boundary[chord.chain][chord.run], chord.index);
+        }
+    }
+    tessellator.mesh(&boundary, cancelled).map(|found| found.0)
+}
+
+/// Puts a vertex in the middle of a chord.
+pub fn halve_chord(run: &super::outline::Run, samples: &mut Vec<EdgeSample>, index: usize) {
+    let (a, b) = (samples[index].s, samples[index + 1].s);
+    let s = 0.5 * (a + b);
+    if s > a && s < b {
+        samples.insert(index + 1, EdgeSample { s, uv: run.uv(s), point: run.point(s) });
+    }
+}
+
+/// Positions of a boundary as closed polygons.
+pub fn polygons(boundary: &Boundary) -> Vec<Vec<DVec3>> {
+    let ring = |runs: &Vec<Vec<EdgeSample>>| {
+        runs.iter().flat_map(|r| r[..r.len().saturating_sub(1)].iter().map(|s| s.point)).collect()
+    };
+    boundary.iter().map(ring).collect()
+}

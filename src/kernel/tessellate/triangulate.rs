@@ -1,0 +1,324 @@
+//! Constrained Delaunay triangulation of a face's loops, with the part inside known by flooding.
+//!
+//! The triangulation is `spade`'s, whose predicates are exact. Loops go in as constraints; where two chords cross a vertex
+//! is put at the crossing, so that loops are free of intersections (P2, section 5.1). What is inside is decided once per
+//! connected region by even-odd over all chords, as the rest of the program does; points inserted later inherit it.
+//! Holes need no bridges: they are constraints like any others.
+
+use glam::DVec2;
+use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
+use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation};
+
+/// A vertex of the triangulation: its place and its number among the caller's vertices.
+#[derive(Debug, Clone, Copy)]
+pub struct Site {
+    place: Point2<f64>,
+    /// Number of the vertex; [`Site::CROSSING`] for one made where chords cross, until it is given one.
+    pub number: u32,
+}
+
+impl Site {
+    /// Marks vertices at crossings.
+    pub const CROSSING: u32 = u32::MAX;
+}
+
+impl HasPosition for Site {
+    type Scalar = f64;
+
+    fn position(&self) -> Point2<f64> {
+        self.place
+    }
+}
+
+/// Whether a triangle belongs to the face.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+enum Side {
+    #[default]
+    Unknown,
+    Inside,
+    Outside,
+}
+
+type Delaunay = ConstrainedDelaunayTriangulation<Site, (), (), Side>;
+
+/// A triangulated region.
+pub struct Region {
+    delaunay: Delaunay,
+}
+
+/// A chord by its two vertices, numbers of the caller.
+pub type Chord = [u32; 2];
+
+/// Loops that could not be laid without crossing.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Crossings {
+    /// Pairs of chords that cross each other.
+    pub pairs: Vec<(Chord, Chord)>,
+    /// Places of the vertices made there.
+    pub places: Vec<DVec2>,
+}
+
+fn point(p: DVec2) -> Point2<f64> {
+    // Numbers too small for exact predicates are nothing.
+    let clean = |x: f64| if x.abs() < 1e-100 { 0.0 } else { x };
+    Point2::new(clean(p.x), clean(p.y))
+}
+
+fn place(p: Point2<f64>) -> DVec2 {
+    DVec2::new(p.x, p.y)
+}
+
+impl Region {
+    /// Triangulates closed `loops` of vertex numbers over `places`. Vertices in the same place become one: the first.
+    /// Crossing vertices get numbers from `places.len()` on.
+    pub fn new(places: &[DVec2], loops: &[Vec<u32>]) -> (Self, Crossings) {
+        let mut delaunay = Delaunay::new();
+        let mut handles = vec![None; places.len()];
+        let mut hint = None;
+        for number in loops.iter().flatten() {
+            let site = Site { place: point(places[*number as usize]), number: *number };
+            // Where a vertex lies already it stays, with its number.
+            let handle = match existing(&delaunay, site.place, hint) {
+                Some(handle) => Some(handle),
+                None => match hint {
+                    Some(hint) => delaunay.insert_with_hint(site, hint).ok(),
+                    None => delaunay.insert(site).ok(),
+                },
+            };
+            handles[*number as usize] = handle;
+            hint = handle.or(hint);
+        }
+        let mut crossings = Crossings::default();
+        for ring in loops {
+            for (k, from) in ring.iter().enumerate() {
+                let to = ring[(k + 1) % ring.len()];
+                let (Some(a), Some(b)) = (handles[*from as usize], handles[to as usize]) else { continue };
+                if a == b || !delaunay.try_add_constraint(a, b).is_empty() || delaunay.exists_constraint(a, b)
+                {
+                    continue;
+                }
+                for edge in delaunay.get_conflicting_edges_between_vertices(a, b) {
+                    let ends = [edge.from().data().number, edge.to().data().number];
+                    crossings.pairs.push(([*from, to], ends));
+                }
+                delaunay.add_constraint_and_split(a, b, |p| Site { place: p, number: Site::CROSSING });
+            }
+        }
+        let mut number = places.len() as u32;
+        let made: Vec<FixedVertexHandle> =
+            delaunay.vertices().filter(|v| v.data().number == Site::CROSSING).map(|v| v.fix()).collect();
+        for handle in made {
+            crossings.places.push(place(delaunay.vertex(handle).position()));
+            delaunay.vertex_data_mut(handle).number = number;
+            number += 1;
+        }
+        let mut region = Self { delaunay };
+        region.flood(places, loops);
+        (region, crossings)
+    }
+
+    /// Marks every triangle as inside or outside.
+    fn flood(&mut self, places: &[DVec2], loops: &[Vec<u32>]) {
+        let faces: Vec<FixedFaceHandle<InnerTag>> = self.delaunay.fixed_inner_faces().collect();
+        for start in faces {
+            if *self.delaunay.face(start).data() != Side::Unknown {
+                continue;
+            }
+            let mut region = vec![start];
+            let (mut widest, mut middle) = (-1.0, DVec2::ZERO);
+            *self.delaunay.face_data_mut(start) = Side::Outside;
+            let mut k = 0;
+            while k < region.len() {
+                let face = self.delaunay.face(region[k]);
+                let [a, b, c] = face.positions().map(place);
+                // The roundest, largest triangle has the safest middle.
+                let size = (b - a).perp_dot(c - a).abs()
+                    / (a.distance(b) + b.distance(c) + c.distance(a)).max(f64::MIN_POSITIVE);
+                if size > widest {
+                    (widest, middle) = (size, (a + b + c) / 3.0);
+                }
+                let next: Vec<_> = face
+                    .adjacent_edges()
+                    .into_iter()
+                    .filter(|e| !e.is_constraint_edge())
+                    .filter_map(|e| e.rev().face().as_inner())
+                    .filter(|f| *f.data() == Side::Unknown)
+                    .map(|f| f.fix())
+                    .collect();
+                for face in next {
+                    *self.delaunay.face_data_mut(face) = Side::Outside;
+                    region.push(face);
+                }
+                k += 1;
+            }
+            if crosses_odd(places, loops, middle) {
+                region.iter().for_each(|f| *self.delaunay.face_data_mut(*f) = Side::Inside);
+            }
+        }
+    }
+
+    /// Triangles inside, by vertex numbers, counter-clockwise.
+    pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> {
+        let inside = self.delaunay.inner_faces().filter(|f| *f.data() == Side::Inside);
+        inside.map(|f| f.vertices().map(|v| v.data().number))
+    }
+
+    /// Handles and numbers of the triangles inside.
+    pub fn corners(&self) -> impl Iterator<Item = [FixedVertexHandle; 3]> {
+        let inside = self.delaunay.inner_faces().filter(|f| *f.data() == Side::Inside);
+        inside.map(|f| f.vertices().map(|v| v.fix()))
+    }
+
+    /// The caller's number of a vertex.
+    pub fn number(&self, vertex: FixedVertexHandle) -> u32 {
+        self.delaunay.vertex(vertex).data().number
+    }
+
+    /// Whether the triangle still stands, inside; then for each edge (from corner k to the next) whether it bounds the
+    /// face.
+    pub fn standing(&self, [a, b, c]: [FixedVertexHandle; 3]) -> Option<[bool; 3]> {
+        let edge = self.delaunay.get_edge_from_neighbors(a, b)?;
+        let face = edge.face().as_inner()?;
+        let whole = edge.next().to().fix() == c && *face.data() == Side::Inside;
+        whole.then(|| [edge, edge.next(), edge.prev()].map(|e| e.is_constraint_edge()))
+    }
+
+    /// Puts a vertex inside the face, near `hint`. Gives the triangles around it; `None` where it would lie on a vertex,
+    /// on a chord or outside.
+    pub fn insert(
+        &mut self,
+        at: DVec2,
+        number: u32,
+        hint: FixedVertexHandle,
+    ) -> Option<Vec<[FixedVertexHandle; 3]>> {
+        let site = Site { place: point(at), number };
+        let free = match self.delaunay.locate_with_hint(site.place, hint) {
+            PositionInTriangulation::OnFace(face) => *self.delaunay.face(face).data() == Side::Inside,
+            PositionInTriangulation::OnEdge(edge) => {
+                let edge = self.delaunay.directed_edge(edge);
+                let inside = edge.face().as_inner().is_some_and(|f| *f.data() == Side::Inside);
+                inside && !edge.is_constraint_edge()
+            }
+            _ => false,
+        };
+        if !free {
+            return None;
+        }
+        let vertex = self.delaunay.insert_with_hint(site, hint).ok()?;
+        let around: Vec<FixedFaceHandle<InnerTag>> = self
+            .delaunay
+            .vertex(vertex)
+            .out_edges()
+            .filter_map(|e| e.face().as_inner())
+            .map(|f| f.fix())
+            .collect();
+        for face in &around {
+            *self.delaunay.face_data_mut(*face) = Side::Inside;
+        }
+        Some(around.into_iter().map(|f| self.delaunay.face(f).vertices().map(|v| v.fix())).collect())
+    }
+
+    /// Number of triangles, outside ones included.
+    pub fn len(&self) -> usize {
+        self.delaunay.num_inner_faces()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+fn existing(
+    delaunay: &Delaunay,
+    at: Point2<f64>,
+    hint: Option<FixedVertexHandle>,
+) -> Option<FixedVertexHandle> {
+    let found = match hint {
+        Some(hint) => delaunay.locate_with_hint(at, hint),
+        None => delaunay.locate(at),
+    };
+    match found {
+        PositionInTriangulation::OnVertex(vertex) => Some(vertex),
+        _ => None,
+    }
+}
+
+/// Even-odd over the chords.
+fn crosses_odd(places: &[DVec2], loops: &[Vec<u32>], p: DVec2) -> bool {
+    let mut odd = false;
+    for ring in loops {
+        for (k, from) in ring.iter().enumerate() {
+            let (a, b) = (places[*from as usize], places[ring[(k + 1) % ring.len()] as usize]);
+            if (a.y <= p.y) != (b.y <= p.y) {
+                let x = a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
+                odd ^= x > p.x;
+            }
+        }
+    }
+    odd
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn area(region: &Region, places: &[DVec2]) -> f64 {
+        let at = |i: u32| places[i as usize];
+        region.triangles().map(|[a, b, c]| 0.5 * (at(b) - at(a)).perp_dot(at(c) - at(a))).sum()
+    }
+
+    fn ring(points: &[(f64, f64)], places: &mut Vec<DVec2>) -> Vec<u32> {
+        let first = places.len() as u32;
+        places.extend(points.iter().map(|p| DVec2::new(p.0, p.1)));
+        (first..places.len() as u32).collect()
+    }
+
+    #[test]
+    fn holes_and_islands_alternate() {
+        let mut places = Vec::new();
+        let square = |r: f64| [(-r, -r), (r, -r), (r, r), (-r, r)];
+        let loops = [
+            ring(&square(3.0), &mut places),
+            ring(&square(2.0), &mut places),
+            ring(&square(1.0), &mut places),
+        ];
+        let (region, crossings) = Region::new(&places, &loops);
+        assert_eq!(crossings, Crossings::default());
+        assert!((area(&region, &places) - (36.0 - 16.0 + 4.0)).abs() < 1e-12);
+        // Triangles = vertices - 2 + 2 * holes.
+        assert_eq!(region.triangles().count(), (8 - 2 + 2) + 2);
+    }
+
+    #[test]
+    fn crossing_and_touching_loops_are_taken_by_even_odd() {
+        let mut places = Vec::new();
+        let bow = ring(&[(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (0.0, 2.0)], &mut places);
+        let (region, crossings) = Region::new(&places, &[bow]);
+        assert_eq!((crossings.pairs.len(), crossings.places.len()), (1, 1));
+        assert!(crossings.places[0].distance(DVec2::ONE) < 1e-15);
+        places.extend(&crossings.places);
+        assert!((area(&region, &places) - 2.0).abs() < 1e-12);
+        // Two squares that share a corner, and a third along a side of the first.
+        let mut places = Vec::new();
+        let loops = [
+            ring(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)], &mut places),
+            ring(&[(1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0)], &mut places),
+            ring(&[(0.25, 0.0), (0.75, 0.0), (0.75, -1.0), (0.25, -1.0)], &mut places),
+        ];
+        let (region, _) = Region::new(&places, &loops);
+        assert!((area(&region, &places) - 2.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn vertices_go_in_only_inside() {
+        let mut places = Vec::new();
+        let loops = [ring(&[(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)], &mut places)];
+        let (mut region, _) = Region::new(&places, &loops);
+        let hint = region.corners().next().expect("a triangle")[0];
+        assert!(region.insert(DVec2::new(2.0, 2.0), 3, hint).is_none(), "on a chord");
+        assert!(region.insert(DVec2::new(3.0, 3.0), 3, hint).is_none(), "outside");
+        assert!(region.insert(DVec2::ZERO, 3, hint).is_none(), "on a vertex");
+        assert_eq!(region.insert(DVec2::ONE, 3, hint).map(|t| t.len()), Some(3));
+    }
+}
