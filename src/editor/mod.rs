@@ -14,6 +14,7 @@
 pub mod camera;
 pub mod derive;
 pub mod diagnostics;
+pub mod editing;
 pub mod elements;
 pub mod files;
 pub mod object;
@@ -75,6 +76,7 @@ impl Plugin for EditorPlugin {
         app.add_plugins((
             object::ObjectPlugin,
             derive::DerivePlugin,
+            editing::EditingPlugin,
             selection::SelectionPlugin,
             elements::ElementsPlugin,
             settings::SettingsPlugin,
@@ -85,6 +87,7 @@ impl Plugin for EditorPlugin {
             redraw::RedrawPlugin,
         ))
         .init_resource::<panels::Notices>()
+        .init_resource::<diagnostics::RenderFigures>()
         .add_systems(Update, quit.in_set(EditorSystems::Tools));
         if self.windowed {
             app.add_plugins((

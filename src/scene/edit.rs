@@ -13,6 +13,8 @@ use crate::kernel::nurbs::{NurbsCurve2, NurbsError, NurbsSurface};
 mod apply;
 mod size;
 
+pub use apply::net_applied;
+
 /// A face by position: of its model in the scene, and in the model. Written for users as a number from 1
 /// (first model) or as the pair `[model, face]`, both from 1.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]

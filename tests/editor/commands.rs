@@ -53,7 +53,7 @@ fn commands_that_need_something_are_off_without_it() {
         let command = action.command().expect("in the table");
         assert!(!(command.enabled)(&nothing), "{}", command.id);
     }
-    let all = Situation { model: true, selection: true, hidden: true, loading: true };
+    let all = Situation { model: true, selection: true, hidden: true, undo: true, redo: true, loading: true };
     assert!(COMMANDS.iter().all(|c| (c.enabled)(&all)));
 }
 

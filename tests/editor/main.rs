@@ -2,6 +2,7 @@
 
 mod camera;
 mod commands;
+mod editing;
 mod input;
 #[cfg(target_os = "linux")]
 mod screen;

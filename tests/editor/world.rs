@@ -10,7 +10,7 @@ use hairline::editor::EditorPlugin;
 use hairline::editor::camera::{CameraRequest, ViewCamera, motion};
 use hairline::editor::derive::SceneBounds;
 use hairline::editor::files::{LoadError, Loading, OpenFiles, Source, read_model};
-use hairline::editor::object::{AuthoredFace, DerivedFace, Model, Scene, Shown, TrimLoop};
+use hairline::editor::object::{AuthoredFace, DerivedFace, FacePlace, Model, Scene, Shown, TrimLoop};
 use hairline::editor::panels::Notices;
 use hairline::editor::selection::{SelectMode, SelectRequest, Selection};
 use hairline::editor::settings::Settings;
@@ -44,13 +44,13 @@ fn open(app: &mut App, sources: Vec<Source>, replace: bool) {
     finish_loading(app);
 }
 
-fn command(app: &mut App, action: Action) {
+pub fn command(app: &mut App, action: Action) {
     app.world_mut().write_message(CommandRequest(action));
     app.update();
     app.update();
 }
 
-fn demo_app() -> App {
+pub fn demo_app() -> App {
     let mut app = app();
     open(&mut app, vec![Source::Demo], true);
     app
@@ -84,7 +84,7 @@ fn the_demo_scene_becomes_entities() {
     assert_eq!(derived, record.faces.len());
     let failures: Vec<_> = app
         .world_mut()
-        .query::<(&AuthoredFace, &DerivedFace)>()
+        .query::<(&FacePlace, &DerivedFace)>()
         .iter(app.world())
         .filter_map(|(a, d)| d.0.failure.clone().map(|f| (a.number, f)))
         .collect();

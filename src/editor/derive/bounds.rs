@@ -1,8 +1,10 @@
 //! The box around everything shown.
 
+use bevy::ecs::entity::EntityHashMap;
 use bevy::prelude::*;
 
-use crate::editor::object::{DerivedFace, Shown};
+use super::bounds_tree::BoundsTree;
+use crate::editor::object::{DerivedFace, FaceChange, Shown};
 use crate::kernel::view::Bounds;
 
 /// Boxes of the scene: what fitting and the grid go by.
@@ -36,22 +38,51 @@ impl SceneBounds {
     }
 }
 
-/// Joins the boxes again when a face was derived, shown, hidden or removed.
-pub(super) fn update(
-    mut bounds: ResMut<SceneBounds>,
-    faces: Query<(&DerivedFace, &Shown)>,
-    changed: Query<(), Or<(Changed<DerivedFace>, Changed<Shown>)>>,
-    mut removed: RemovedComponents<DerivedFace>,
-) {
-    if changed.is_empty() && removed.read().count() == 0 {
-        return;
+/// The box of each face, so that one that changes costs nothing for the others.
+#[derive(Resource, Debug, Default)]
+pub(super) struct FaceBoxes {
+    places: EntityHashMap<usize>,
+    free: Vec<usize>,
+    shown: BoundsTree,
+    all: BoundsTree,
+}
+
+impl FaceBoxes {
+    fn set(&mut self, face: Entity, bounds: Bounds, shown: bool) {
+        let next = self.free.last().copied().unwrap_or(self.places.len());
+        let place = *self.places.entry(face).or_insert_with(|| {
+            self.free.pop();
+            next
+        });
+        self.all.set(place, bounds);
+        self.shown.set(place, if shown { bounds } else { Bounds::EMPTY });
     }
-    let mut joined = SceneBounds::default();
-    for (derived, shown) in &faces {
-        joined.all = joined.all.union(derived.0.bounds);
-        if shown.0 {
-            joined.shown = joined.shown.union(derived.0.bounds);
+
+    fn remove(&mut self, face: Entity) {
+        if let Some(place) = self.places.remove(&face) {
+            self.all.set(place, Bounds::EMPTY);
+            self.shown.set(place, Bounds::EMPTY);
+            self.free.push(place);
         }
     }
-    bounds.set_if_neq(joined);
+}
+
+/// Joins the boxes again when faces were derived, shown, hidden or removed.
+pub(super) fn update(
+    mut bounds: ResMut<SceneBounds>,
+    mut boxes: ResMut<FaceBoxes>,
+    mut changes: MessageReader<FaceChange>,
+    faces: Query<(&DerivedFace, &Shown)>,
+) {
+    if changes.is_empty() {
+        return;
+    }
+    for change in changes.read() {
+        let (FaceChange::Derived(face) | FaceChange::Shown(face) | FaceChange::Removed(face)) = *change;
+        match faces.get(face) {
+            Ok((derived, shown)) => boxes.set(face, derived.0.bounds, shown.0),
+            Err(_) => boxes.remove(face),
+        }
+    }
+    bounds.set_if_neq(SceneBounds { shown: boxes.shown.all(), all: boxes.all.all() });
 }

@@ -16,6 +16,8 @@ pub struct Derived {
     pub bounds: Bounds,
     /// What takes longer to work out; there some time after the face is shown.
     measures: OnceLock<Measures>,
+    /// Number of trim loops.
+    pub loops: usize,
     /// Number of trim curves.
     pub curves: usize,
     /// Why the face cannot be drawn, if it cannot.
@@ -54,22 +56,16 @@ impl Derived {
 
     /// Derives everything from the record. Never fails: what went wrong is in [`Self::failure`].
     pub fn of(record: &FaceRecord) -> Self {
+        let loops = record.loops.len();
         let curves = record.loops.iter().map(|l| l.curves.len()).sum();
-        match record.derive() {
-            Ok(face) => {
-                let bounds = face.bounds;
-                Self { face: Some(Arc::new(face)), bounds, measures: OnceLock::new(), curves, failure: None }
-            }
+        let (face, bounds, failure) = match record.derive() {
+            Ok(face) => (Some(Arc::new(face)), None, None),
             Err(error) => {
                 let bounds = Bounds::of(record.surface.points().iter().copied());
-                Self {
-                    face: None,
-                    bounds,
-                    measures: OnceLock::new(),
-                    curves,
-                    failure: Some(error.to_string()),
-                }
+                (None, Some(bounds), Some(error.to_string()))
             }
-        }
+        };
+        let bounds = bounds.or(face.as_ref().map(|f| f.bounds)).unwrap_or(Bounds::EMPTY);
+        Self { face, bounds, measures: OnceLock::new(), loops, curves, failure }
     }
 }

@@ -4,7 +4,7 @@
 //! [`RenderFigures`], which both worlds share.
 
 use std::sync::{Arc, Mutex, MutexGuard};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use bevy::prelude::*;
 use bevy::render::{Render, RenderApp, RenderSystems};
@@ -26,8 +26,48 @@ pub struct Figures {
     pub gpu_bytes: u64,
     /// Frames drawn since start.
     pub frames: u64,
+    /// What the last edit cost.
+    pub edit: EditCost,
     started: Option<Instant>,
     ended: Option<Instant>,
+}
+
+/// What an edit cost from the request to the upload, and what was uploaded.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct EditCost {
+    /// Time on the processor: working out the edit, changing components, deriving, packing, uploading.
+    pub time: Duration,
+    /// Bytes uploaded.
+    pub bytes: u64,
+    /// Edits so far.
+    pub edits: u64,
+    /// Whether something of it is still to be done.
+    under_way: bool,
+}
+
+impl EditCost {
+    /// Starts the account of an edit that took `time` so far. One whose results were never drawn goes on.
+    pub fn begin(&mut self, time: Duration) {
+        if !self.under_way {
+            *self = Self { edits: self.edits, under_way: true, ..Self::default() };
+        }
+        self.edits += 1;
+        self.time += time;
+    }
+
+    /// Adds work that was done for the edit, if there is one.
+    pub fn add(&mut self, time: Duration) {
+        if self.under_way {
+            self.time += time;
+        }
+    }
+
+    /// Adds the upload, which is the end of it.
+    pub fn finish(&mut self, time: Duration, bytes: u64) {
+        if self.under_way {
+            *self = Self { time: self.time + time, bytes, under_way: false, ..*self };
+        }
+    }
 }
 
 /// Figures shared by the main and the render world.
@@ -54,10 +94,8 @@ pub struct DiagnosticsPlugin;
 
 impl Plugin for DiagnosticsPlugin {
     fn build(&self, app: &mut App) {
-        let figures = RenderFigures::default();
-        app.insert_resource(figures.clone())
-            .init_resource::<ProcessMemory>()
-            .add_systems(First, (start_frame, look_up_memory));
+        let figures = app.world_mut().get_resource_or_init::<RenderFigures>().clone();
+        app.init_resource::<ProcessMemory>().add_systems(First, (start_frame, look_up_memory));
         if let Some(render_app) = app.get_sub_app_mut(RenderApp) {
             render_app.insert_resource(figures).add_systems(Render, end_frame.in_set(RenderSystems::Cleanup));
         }

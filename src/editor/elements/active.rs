@@ -6,7 +6,7 @@ use bevy::prelude::*;
 
 use super::selection::{ElementRequest, ElementSelection};
 use crate::editor::derive::Derived;
-use crate::editor::object::{AuthoredFace, DerivedFace};
+use crate::editor::object::{DerivedFace, FaceParts, FacePlace, Records};
 use crate::editor::selection::Selection;
 use crate::scene::records::FaceRecord;
 
@@ -19,6 +19,8 @@ pub struct FaceInHand {
     pub number: usize,
     /// Surface and loops as they are now, drags included.
     pub record: Arc<FaceRecord>,
+    /// What the record was made from.
+    pub parts: FaceParts,
     /// What was derived from it; may be a little older than the record.
     pub derived: Option<Arc<Derived>>,
 }
@@ -64,16 +66,16 @@ pub(super) fn apply(
 pub(super) fn observe(
     mut active: ResMut<ActiveFace>,
     mut selection: ResMut<ElementSelection>,
-    faces: Query<(&AuthoredFace, Option<&DerivedFace>)>,
+    records: Records,
+    faces: Query<(&FacePlace, Option<&DerivedFace>)>,
 ) {
     let found = selection.face.and_then(|entity| {
-        let (authored, derived) = faces.get(entity).ok()?;
-        Some(FaceInHand {
-            entity,
-            number: authored.number,
-            record: Arc::clone(&authored.record),
-            derived: derived.map(|d| Arc::clone(&d.0)),
-        })
+        let (place, derived) = faces.get(entity).ok()?;
+        let parts = records.parts(entity)?;
+        let kept = active.face.as_ref().filter(|f| f.entity == entity && f.parts.is_same(&parts));
+        let record = kept.map_or_else(|| Arc::new(parts.to_record()), |f| Arc::clone(&f.record));
+        let derived = derived.map(|d| Arc::clone(&d.0));
+        Some(FaceInHand { entity, number: place.number, record, parts, derived })
     });
     let same_record = match (&found, &active.face) {
         (Some(a), Some(b)) => a.entity == b.entity && Arc::ptr_eq(&a.record, &b.record),

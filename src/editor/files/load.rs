@@ -11,6 +11,7 @@ use bevy::prelude::*;
 
 use super::{LoadError, OpenFiles, Source, read_model};
 use crate::editor::camera::CameraRequest;
+use crate::editor::editing::Editing;
 use crate::editor::object::{LoadedModel, Scene, despawn_model, spawn_model};
 use crate::editor::panels::Notices;
 use crate::editor::redraw::Waker;
@@ -79,6 +80,7 @@ pub(super) fn command_requests(
     mut open: MessageWriter<OpenFiles>,
     mut loading: ResMut<Loading>,
     mut scene: ResMut<Scene>,
+    mut editing: ResMut<Editing>,
     mut commands: Commands,
 ) {
     for CommandRequest(action) in requests.read() {
@@ -87,7 +89,10 @@ pub(super) fn command_requests(
                 open.write(OpenFiles { sources: vec![Source::Demo], replace: true });
             }
             Action::Cancel => loading.cancel(),
-            Action::CloseAll => close_all(&mut commands, &mut scene),
+            Action::CloseAll => {
+                close_all(&mut commands, &mut scene);
+                editing.start_over();
+            }
             _ => {}
         }
     }
@@ -163,6 +168,7 @@ pub(super) fn finish(
     mut scene: ResMut<Scene>,
     mut commands: Commands,
     mut settings: ResMut<Settings>,
+    mut editing: ResMut<Editing>,
     mut notices: ResMut<Notices>,
     mut camera: MessageWriter<CameraRequest>,
     waker: Res<Waker>,
@@ -182,6 +188,9 @@ pub(super) fn finish(
         Ok(model) => {
             if replace {
                 close_all(&mut commands, &mut scene);
+                editing.start_over();
+            } else {
+                editing.touch();
             }
             if let Some(path) = &model.path {
                 super::remember(&mut settings, path);

@@ -21,11 +21,15 @@ pub struct ModelEntry {
     pub entity: Entity,
     /// Parts with at least one face; faces that name no part are in one of the model's name.
     pub parts: Vec<PartEntry>,
+    /// Its faces in the order of the record: number `n` is at `n - 1`.
+    pub order: Vec<Entity>,
 }
 
 /// A part and its faces.
 #[derive(Debug, Clone)]
 pub struct PartEntry {
+    /// Position in the parts of the model; none for faces that name no part.
+    pub index: Option<usize>,
     /// Entity with [`super::Part`].
     pub entity: Entity,
     /// Entities with [`super::AuthoredFace`], in file order.
@@ -40,7 +44,17 @@ impl Scene {
 
     /// Number of faces.
     pub fn face_count(&self) -> usize {
-        self.models.iter().flat_map(|m| &m.parts).map(|p| p.faces.len()).sum()
+        self.models.iter().map(|m| m.order.len()).sum()
+    }
+
+    /// The face at a position of a model at a position.
+    pub fn face(&self, model: usize, face: usize) -> Option<Entity> {
+        self.models.get(model)?.order.get(face).copied()
+    }
+
+    /// The position of a model.
+    pub fn position(&self, model: Entity) -> Option<usize> {
+        self.models.iter().position(|m| m.entity == model)
     }
 
     /// Whether nothing is open.

@@ -18,6 +18,7 @@ mod tree;
 mod tree_rows;
 mod view_cube;
 
+use bevy::ecs::query::QueryData;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy::window::{PrimaryWindow, RequestRedraw};
@@ -28,7 +29,7 @@ pub use notice::{Notice, Notices};
 use super::camera::{CameraRequest, ViewCamera};
 use super::diagnostics::{ProcessMemory, RenderFigures};
 use super::files::{Loading, OpenDialog, OpenFiles};
-use super::object::{AuthoredFace, DerivedFace, Model, Part, Scene, Shown};
+use super::object::{AuthoredFace, DerivedFace, FacePlace, Model, Part, Records, Scene, Shown};
 use super::picking::{LeftButton, Picker};
 use super::selection::{SelectRequest, Selection, VisibilityRequest};
 use super::settings::Settings;
@@ -68,6 +69,15 @@ pub struct PanelState {
     pub(super) report: report::ReportState,
 }
 
+/// What panels read of a face.
+#[derive(QueryData)]
+pub(super) struct FaceView {
+    pub authored: &'static AuthoredFace,
+    pub place: &'static FacePlace,
+    pub shown: &'static Shown,
+    pub derived: Option<&'static DerivedFace>,
+}
+
 /// State that panels read.
 #[derive(SystemParam)]
 pub(super) struct Reads<'w, 's> {
@@ -81,7 +91,8 @@ pub(super) struct Reads<'w, 's> {
     pub camera: Res<'w, ViewCamera>,
     pub figures: Res<'w, RenderFigures>,
     pub memory: Res<'w, ProcessMemory>,
-    pub faces: Query<'w, 's, (&'static AuthoredFace, &'static Shown, Option<&'static DerivedFace>)>,
+    pub faces: Query<'w, 's, FaceView>,
+    pub records: Records<'w, 's>,
     pub models: Query<'w, 's, &'static Model>,
     pub parts: Query<'w, 's, &'static Part>,
 }

@@ -5,9 +5,9 @@ use bevy_egui::egui::{
     self, Align2, CornerRadius, FontId, Frame, Grid, Label, Margin, RichText, Sense, Ui, vec2,
 };
 
-use super::Reads;
 use super::format::{coordinate, count, number, plural};
 use super::tree::srgb;
+use super::{FaceViewItem, Reads};
 use crate::editor::selection::Selection;
 use crate::editor::theme::size as text;
 use crate::kernel::nurbs::KnotVector;
@@ -89,8 +89,8 @@ fn scene(ui: &mut Ui, reads: &Reads) {
     }
     let all: Vec<Entity> = reads.scene.faces().collect();
     let (mut loops, mut curves, mut area) = (0, 0, Some(0.0));
-    for (authored, _, derived) in reads.faces.iter_many(&all) {
-        loops += authored.record.loops.len();
+    for FaceViewItem { authored, derived, .. } in reads.faces.iter_many(&all) {
+        loops += authored.loops.len();
         curves += derived.map_or(0, |d| d.0.curves);
         area = area.zip(derived.and_then(|d| d.0.measures()).map(|m| m.area)).map(|(a, b)| a + b);
     }
@@ -122,7 +122,7 @@ fn scene(ui: &mut Ui, reads: &Reads) {
         ],
     );
     let bounds =
-        reads.faces.iter().filter_map(|(.., d)| d).fold(Bounds::EMPTY, |b, d| b.union(d.0.best_bounds()));
+        reads.faces.iter().filter_map(|f| f.derived).fold(Bounds::EMPTY, |b, d| b.union(d.0.best_bounds()));
     bounds_table(ui, reads, bounds);
 }
 
@@ -143,11 +143,10 @@ fn spans(knots: &KnotVector) -> usize {
 }
 
 fn single(ui: &mut Ui, reads: &Reads, face: Entity) {
-    let Ok((authored, _, derived)) = reads.faces.get(face) else { return };
-    let record = &authored.record;
-    let surface = &record.surface;
-    let unit = reads.models.get(authored.model).map(|m| m.unit.name.clone()).unwrap_or_default();
-    ui.heading(format!("Face {}", authored.number));
+    let Ok(FaceViewItem { authored, place, derived, .. }) = reads.faces.get(face) else { return };
+    let (record, surface) = (&authored.attributes, &authored.surface);
+    let unit = reads.models.get(place.model).map(|m| m.unit.name.clone()).unwrap_or_default();
+    ui.heading(format!("Face {}", place.number));
     let mut list = Vec::new();
     if let Some(name) = &record.name {
         list.push(("Name", name.clone()));
@@ -193,15 +192,16 @@ fn single(ui: &mut Ui, reads: &Reads, face: Entity) {
     knots(ui, reads, "Knots in u", surface.knots_u());
     knots(ui, reads, "Knots in v", surface.knots_v());
     section(ui, reads, "Trimming");
-    let curves = record.loops.iter().map(|l| l.curves.len()).sum();
-    let mut list = vec![("Loops", count(record.loops.len())), ("Curves", count(curves))];
-    if record.loops.is_empty() {
+    let trim_curves = || reads.records.loops(face).flat_map(|l| &l.curves);
+    let curves = trim_curves().count();
+    let mut list = vec![("Loops", count(authored.loops.len())), ("Curves", count(curves))];
+    if authored.loops.is_empty() {
         list = vec![("Loops", "none: whole domain".into())];
     } else {
-        let degrees = record.loops.iter().flat_map(|l| &l.curves).map(|c| c.degree());
+        let degrees = trim_curves().map(|c| c.degree());
         let (low, high) = degrees.fold((usize::MAX, 0), |(l, h), d| (l.min(d), h.max(d)));
         list.push(("Degrees", if low == high { low.to_string() } else { format!("{low} to {high}") }));
-        let rational = record.loops.iter().flat_map(|l| &l.curves).filter(|c| c.is_rational()).count();
+        let rational = trim_curves().filter(|c| c.is_rational()).count();
         list.push(("Rational", format!("{} of {}", count(rational), count(curves))));
     }
     if let Some(derived) = derived {
@@ -235,8 +235,8 @@ fn knots(ui: &mut Ui, reads: &Reads, title: &str, knots: &KnotVector) {
 fn several(ui: &mut Ui, reads: &Reads, faces: &[Entity]) {
     ui.heading(plural(faces.len(), "face"));
     let (mut loops, mut curves, mut area, mut bounds) = (0, 0, Some(0.0), Bounds::EMPTY);
-    for (authored, _, derived) in reads.faces.iter_many(faces) {
-        loops += authored.record.loops.len();
+    for FaceViewItem { authored, derived, .. } in reads.faces.iter_many(faces) {
+        loops += authored.loops.len();
         curves += derived.map_or(0, |d| d.0.curves);
         area = area.zip(derived.and_then(|d| d.0.measures()).map(|m| m.area)).map(|(a, b)| a + b);
         bounds = derived.map_or(bounds, |d| bounds.union(d.0.best_bounds()));

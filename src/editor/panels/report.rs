@@ -153,8 +153,9 @@ fn faces_about(model: Entity, remark: &Remark, reads: &Reads) -> Vec<Entity> {
         return Vec::new();
     }
     let about = |face: &Entity| {
-        reads.faces.get(*face).is_ok_and(|(authored, ..)| {
-            authored.model == model && authored.record.source.as_ref().is_some_and(|s| s.id == remark.id)
+        reads.faces.get(*face).is_ok_and(|face| {
+            let source = face.authored.attributes.source.as_ref();
+            face.place.model == model && source.is_some_and(|s| s.id == remark.id)
         })
     };
     reads.scene.faces().filter(about).collect()

@@ -31,7 +31,7 @@ fn under_pointer(reads: &Reads) -> String {
             "F1 shows keys and mouse".into()
         };
     };
-    let number = reads.faces.get(hit.face).map_or(0, |(authored, ..)| authored.number);
+    let number = reads.faces.get(hit.face).map_or(0, |f| f.place.number);
     let p = hit.position;
     format!(
         "Face {number}    x {}  y {}  z {}    u {:.5}  v {:.5}",
@@ -46,7 +46,7 @@ fn under_pointer(reads: &Reads) -> String {
 fn figures(ui: &mut Ui, reads: &Reads) {
     let figures = *reads.figures.lock();
     let faces = reads.scene.face_count();
-    let curves: usize = reads.faces.iter().filter_map(|(.., d)| d).map(|d| d.0.curves).sum();
+    let curves: usize = reads.faces.iter().filter_map(|f| f.derived).map(|d| d.0.curves).sum();
     let memory = match (reads.memory.resident, figures.gpu_bytes) {
         (Some(resident), 0) => bytes(resident),
         (Some(resident), gpu) => format!("{} + {} GPU", bytes(resident), bytes(gpu)),
@@ -66,6 +66,10 @@ fn figures(ui: &mut Ui, reads: &Reads) {
         (format!("GPU {gpu}"), "Time the GPU took for the model in the last frame"),
         (format!("Frame {:.1} ms", figures.frame_ms), "Time the last frame took; at rest no frame is drawn"),
     ];
+    let edit = figures.edit;
+    let cost = format!("Edit {:.2} ms, {} uploaded", 1e3 * edit.time.as_secs_f64(), bytes(edit.bytes));
+    let hint = "Processor time from the last edit to its upload, and the bytes uploaded";
+    let entries: Vec<_> = entries.into_iter().chain((edit.edits > 0).then_some((cost, hint))).collect();
     let count = entries.len();
     for (i, (text, hint)) in entries.into_iter().enumerate() {
         ui.add(Label::new(RichText::new(text).color(reads.palette.weak))).on_hover_text(hint);

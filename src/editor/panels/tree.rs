@@ -10,7 +10,7 @@ use bevy_egui::egui::{
 use super::format::plural;
 use super::icon::{self, Icon};
 use super::tree_rows::{Row, Rows};
-use super::{Owned, Reads, Writes};
+use super::{FaceViewItem, Owned, Reads, Writes};
 use crate::editor::camera::CameraRequest;
 use crate::editor::selection::{SelectMode, SelectRequest, VisibilityRequest};
 use crate::editor::theme::size;
@@ -37,7 +37,7 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes, owned: &mu
     panel.show(root, |ui| {
         search(ui, reads, &mut owned.state.tree);
         let state = &mut owned.state.tree;
-        state.rows.update(&reads.scene, &state.filter, |e| reads.faces.get(e).ok().map(|f| f.0));
+        state.rows.update(&reads.scene, &state.filter, |e| reads.faces.get(e).ok());
         if state.rows.rows.is_empty() {
             ui.add_space(24.0);
             let text = if reads.scene.is_empty() { "Nothing open" } else { "No face matches" };
@@ -172,7 +172,7 @@ fn faces_of(row: Row, reads: &Reads) -> Vec<Entity> {
 }
 
 fn look(row: Row, faces: &[Entity], reads: &Reads, owned: &Owned) -> Option<Look> {
-    let shown = || faces.iter().any(|f| reads.faces.get(*f).is_ok_and(|(_, shown, _)| shown.0));
+    let shown = || faces.iter().any(|f| reads.faces.get(*f).is_ok_and(|f| f.shown.0));
     let model_rows = |m: usize| {
         reads.scene.models.len() > 1 || reads.scene.models.get(m).is_some_and(|m| m.parts.len() < 2)
     };
@@ -205,27 +205,26 @@ fn look(row: Row, faces: &[Entity], reads: &Reads, owned: &Owned) -> Option<Look
             })
         }
         Row::Face(face) => {
-            let (authored, shown, _) = reads.faces.get(face).ok()?;
-            let record = &authored.record;
+            let FaceViewItem { authored, place, shown, .. } = reads.faces.get(face).ok()?;
+            let record = &authored.attributes;
             let text = match &record.name {
-                Some(name) => format!("{}  {name}", authored.number),
-                None => format!("Face {}", authored.number),
+                Some(name) => format!("{}  {name}", place.number),
+                None => format!("Face {}", place.number),
             };
-            let (u, v) = (record.surface.knots_u().degree(), record.surface.knots_v().degree());
+            let (u, v) = (authored.surface.knots_u().degree(), authored.surface.knots_v().degree());
             Some(Look {
                 depth: 1.0,
                 text,
                 detail: format!("{u} × {v}"),
                 swatch: record.colour.map(srgb),
-                open: (!record.loops.is_empty()).then(|| rows.open_faces.contains(&face)),
+                open: (!authored.loops.is_empty()).then(|| rows.open_faces.contains(&face)),
                 eye: Some(shown.0),
                 strong: false,
                 selected: owned.selection.contains(face),
             })
         }
         Row::Loop(face, index) => {
-            let (authored, ..) = reads.faces.get(face).ok()?;
-            let record = authored.record.loops.get(index)?;
+            let record = reads.records.trim_loop(face, index)?;
             let role = match record.role {
                 LoopRole::Outer => "Outer loop",
                 LoopRole::Inner => "Inner loop",
@@ -348,7 +347,7 @@ fn select(row: Row, faces: &[Entity], held: Modifiers, writes: &mut Writes, owne
 }
 
 fn fit(faces: &[Entity], reads: &Reads, writes: &mut Writes) {
-    let boxes = reads.faces.iter_many(faces).filter_map(|(.., derived)| derived).map(|d| d.0.bounds);
+    let boxes = reads.faces.iter_many(faces).filter_map(|f| f.derived).map(|d| d.0.bounds);
     let bounds = boxes.fold(crate::kernel::view::Bounds::EMPTY, |b, other| b.union(other));
     writes.camera.write(CameraRequest::FitBounds(bounds));
     writes.redraw.write(RequestRedraw);

@@ -7,7 +7,8 @@ use std::collections::HashSet;
 
 use bevy::prelude::*;
 
-use crate::editor::object::{AuthoredFace, Scene};
+use super::FaceViewItem;
+use crate::editor::object::Scene;
 
 /// One row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +51,7 @@ impl Rows {
         &mut self,
         scene: &Scene,
         filter: &str,
-        face: impl Fn(Entity) -> Option<&'a AuthoredFace>,
+        face: impl Fn(Entity) -> Option<FaceViewItem<'a, 'a>>,
     ) {
         let key = (scene.revision, self.expansion, filter.to_lowercase());
         if self.made_from.as_ref() == Some(&key) {
@@ -72,7 +73,7 @@ impl Rows {
                     .faces
                     .iter()
                     .copied()
-                    .filter(|f| filter.is_empty() || face(*f).is_some_and(|a| passes(a, filter)))
+                    .filter(|f| filter.is_empty() || face(*f).is_some_and(|f| passes(&f, filter)))
                     .collect();
                 if !single_part && (filter.is_empty() || !faces.is_empty()) {
                     self.rows.push(Row::Part(m, p));
@@ -83,7 +84,7 @@ impl Rows {
                 for entity in faces {
                     self.rows.push(Row::Face(entity));
                     if self.open_faces.contains(&entity) {
-                        let loops = face(entity).map_or(0, |a| a.record.loops.len());
+                        let loops = face(entity).map_or(0, |f| f.authored.loops.len());
                         self.rows.extend((0..loops).map(|i| Row::Loop(entity, i)));
                     }
                 }
@@ -94,11 +95,11 @@ impl Rows {
 }
 
 /// Whether number, name, source entity or layer of a face match.
-fn passes(face: &AuthoredFace, filter: &str) -> bool {
-    let record = &face.record;
-    face.number.to_string() == filter
+fn passes(face: &FaceViewItem, filter: &str) -> bool {
+    let (record, number) = (&face.authored.attributes, face.place.number);
+    number.to_string() == filter
         || record.name.as_ref().is_some_and(|n| n.to_lowercase().contains(filter))
-        || format!("face {}", face.number).starts_with(filter)
+        || format!("face {number}").starts_with(filter)
         || record.source.as_ref().is_some_and(|s| s.entity == filter || format!("d{}", s.id) == filter)
         || record.layer.is_some_and(|l| format!("layer {l}") == filter)
 }

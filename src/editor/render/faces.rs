@@ -8,7 +8,8 @@ use bevy::prelude::*;
 use bevy::render::Extract;
 
 use crate::editor::derive::Derived;
-use crate::editor::object::{AuthoredFace, DerivedFace, Shown};
+use crate::editor::diagnostics::RenderFigures;
+use crate::editor::object::{AuthoredFace, DerivedFace, FaceChange, FacePlace, Shown};
 use crate::editor::selection::Selection;
 use crate::encoding::{FaceHeader, FaceShape, FaceSlot, PackedScene};
 
@@ -25,7 +26,12 @@ struct Origin {
     reversed: bool,
     shown: bool,
     slot: Option<FaceSlot>,
+    waiting: bool,
 }
+
+/// Bits of the marks.
+const SELECTED: u32 = 1;
+const HOVERED: u32 = 2;
 
 /// All faces in the render world.
 #[derive(Resource, Debug, Default)]
@@ -63,7 +69,12 @@ impl RenderFaces {
         self.packed = PackedScene::default();
         self.entities.clear();
         self.waiting = self.origins.keys().copied().collect();
-        self.origins.values_mut().for_each(|o| o.slot = None);
+        self.origins.values_mut().for_each(|o| {
+            o.slot = None;
+            o.waiting = true;
+        });
+        self.marks.clear();
+        self.marks_revision += 1;
         self.geometry += 1;
     }
 
@@ -75,79 +86,119 @@ impl RenderFaces {
         }
     }
 
+    /// Marks every face anew.
     fn mark_all(&mut self, selection: &Selection) {
         self.marks.clear();
         self.marks.resize(self.entities.len(), 0);
         for face in selection.faces() {
-            self.set_mark(*face, 1, true);
+            self.set_mark(*face, SELECTED, true);
         }
         if let Some(face) = selection.hovered {
-            self.set_mark(face, 2, true);
+            self.set_mark(face, HOVERED, true);
         }
         self.selected = selection.revision;
         self.hovered = selection.hovered;
         self.marks_revision += 1;
     }
+
+    /// Marks one face, whose slot may be new.
+    fn mark(&mut self, entity: Entity, selection: &Selection) {
+        self.marks.resize(self.entities.len(), 0);
+        let Some(slot) = self.origins.get(&entity).and_then(|o| o.slot) else { return };
+        let mark = if selection.contains(entity) { SELECTED } else { 0 }
+            | if selection.hovered == Some(entity) { HOVERED } else { 0 };
+        if let Some(before) = self.marks.get_mut(slot.0 as usize)
+            && *before != mark
+        {
+            *before = mark;
+            self.marks_revision += 1;
+        }
+    }
+
+    fn remove(&mut self, entity: Entity) {
+        // It may still be among those that wait: packing passes over it.
+        let Some(origin) = self.origins.remove(&entity) else { return };
+        if let Some(slot) = origin.slot {
+            self.packed.remove(slot);
+            self.entities[slot.0 as usize] = None;
+        }
+        self.geometry += 1;
+    }
+
+    fn show(&mut self, entity: Entity, shown: bool) {
+        let Some(origin) = self.origins.get_mut(&entity).filter(|o| o.shown != shown) else { return };
+        origin.shown = shown;
+        if let Some(slot) = origin.slot {
+            self.packed.set_flag(slot, FaceHeader::VISIBLE, shown);
+            self.geometry += 1;
+        }
+    }
 }
 
-/// Takes over what changed since the last frame.
+/// Takes over what changed since the last frame. Costs nothing for the faces that did not.
 pub(super) fn extract(
     mut faces: ResMut<RenderFaces>,
-    changed: Extract<Query<(Entity, &AuthoredFace, &DerivedFace, &Shown), Changed<DerivedFace>>>,
-    shown: Extract<Query<(Entity, &Shown), Changed<Shown>>>,
-    mut removed: Extract<RemovedComponents<DerivedFace>>,
+    mut changes: Extract<MessageReader<FaceChange>>,
+    query: Extract<Query<(&AuthoredFace, &FacePlace, &DerivedFace, &Shown)>>,
     selection: Extract<Res<Selection>>,
+    figures: Res<RenderFigures>,
 ) {
     let faces = &mut *faces;
-    for entity in removed.read() {
-        let Some(origin) = faces.origins.remove(&entity) else { continue };
-        faces.waiting.retain(|e| *e != entity);
-        if let Some(slot) = origin.slot {
-            faces.packed.remove(slot);
-            faces.entities[slot.0 as usize] = None;
-        }
-        faces.geometry += 1;
-    }
     let mut new: Vec<(usize, Entity)> = Vec::new();
-    for (entity, authored, derived, shown) in &changed {
-        let slot = faces.origins.get(&entity).and_then(|o| o.slot);
+    for change in changes.read() {
+        let (FaceChange::Derived(entity) | FaceChange::Shown(entity) | FaceChange::Removed(entity)) = *change;
+        let Ok((authored, place, derived, shown)) = query.get(entity) else {
+            faces.remove(entity);
+            continue;
+        };
+        if !matches!(change, FaceChange::Derived(_)) {
+            faces.show(entity, shown.0);
+            continue;
+        }
+        let before = faces.origins.get(&entity);
+        let (slot, waiting) = before.map_or((None, false), |o| (o.slot, o.waiting));
         let origin = Origin {
             derived: Arc::clone(&derived.0),
-            colour: authored.record.colour,
-            reversed: authored.record.reversed,
+            colour: authored.attributes.colour,
+            reversed: authored.attributes.reversed,
             shown: shown.0,
             slot,
+            waiting: true,
         };
         faces.origins.insert(entity, origin);
-        new.push((authored.number, entity));
-    }
-    // In file order: slots, and with them the colours by face, do not depend on the order of a query.
-    new.sort();
-    faces.waiting.extend(new.into_iter().map(|(_, entity)| entity));
-    for (entity, shown) in &shown {
-        let Some(origin) = faces.origins.get_mut(&entity) else { continue };
-        if origin.shown != shown.0 {
-            origin.shown = shown.0;
-            if let Some(slot) = origin.slot {
-                faces.packed.set_flag(slot, FaceHeader::VISIBLE, shown.0);
-                faces.geometry += 1;
-            }
+        if !waiting {
+            new.push((place.number, entity));
         }
     }
-    if faces.selected != selection.revision || faces.hovered != selection.hovered || pack(faces) {
+    // In file order: slots, and with them the colours by face, do not depend on the order of messages.
+    new.sort();
+    faces.waiting.extend(new.into_iter().map(|(_, entity)| entity));
+    let started = Instant::now();
+    if pack(faces, &selection) {
+        figures.lock().edit.add(started.elapsed());
+    }
+    if faces.selected != selection.revision || faces.hovered != selection.hovered {
         faces.mark_all(&selection);
     }
 }
 
-/// Packs waiting faces for a while. Says whether any was packed.
-fn pack(faces: &mut RenderFaces) -> bool {
-    let started = Instant::now();
-    let mut any = false;
+/// Packs waiting faces for a while. Says whether there were any.
+fn pack(faces: &mut RenderFaces, selection: &Selection) -> bool {
+    let (started, any) = (Instant::now(), faces.is_waiting());
     while started.elapsed() < PACK_TIME
         && let Some(entity) = faces.waiting.pop_front()
     {
         let Some(origin) = faces.origins.get_mut(&entity) else { continue };
-        let Some(face) = origin.derived.face.as_deref() else { continue };
+        origin.waiting = false;
+        let Some(face) = origin.derived.face.as_deref() else {
+            // What cannot be derived any more is not drawn any more.
+            if let Some(slot) = origin.slot.take() {
+                faces.packed.remove(slot);
+                faces.entities[slot.0 as usize] = None;
+                faces.unshown = true;
+            }
+            continue;
+        };
         let shape = FaceShape::of(face, origin.colour, origin.reversed);
         let slot = match origin.slot {
             Some(slot) => {
@@ -163,9 +214,9 @@ fn pack(faces: &mut RenderFaces) -> bool {
             faces.entities.resize(index + 1, None);
         }
         faces.entities[index] = Some(entity);
-        any = true;
+        faces.mark(entity, selection);
+        faces.unshown = true;
     }
-    faces.unshown |= any;
     let due = faces.shown_at.is_none_or(|t| t.elapsed() > SHOW_TIME);
     if faces.unshown && (due || !faces.is_waiting()) {
         faces.geometry += 1;

@@ -103,15 +103,19 @@ pub(super) fn draw(
         }
     }
     let Some((_, renderer)) = &mut pass.renderer else { return };
-    if pass.cast.is_none_or(|cast| cast.geometry != faces.geometry)
-        && let Err(error) = renderer.upload(device, &queue, &mut faces.packed)
-    {
-        let text = error.to_string();
-        if pass.failure.as_ref() != Some(&text) {
-            error!("the model cannot be drawn: {text}");
-            pass.failure = Some(text);
+    if pass.cast.is_none_or(|cast| cast.geometry != faces.geometry) {
+        let started = Instant::now();
+        match renderer.upload(device, &queue, &mut faces.packed) {
+            Ok(uploaded) => figures.lock().edit.finish(started.elapsed(), uploaded.bytes),
+            Err(error) => {
+                let text = error.to_string();
+                if pass.failure.as_ref() != Some(&text) {
+                    error!("the model cannot be drawn: {text}");
+                    pass.failure = Some(text);
+                }
+                return;
+            }
         }
-        return;
     }
     let (min, size) = frame.viewport.physical();
     let mode = frame.settings.mode;

@@ -143,7 +143,7 @@ pub(super) fn deliver(
     let hit = texel.and_then(|(face, normalised)| {
         let (authored, derived) = faces.get(face).ok()?;
         let uv = derived.0.face.as_ref()?.domain.native(normalised);
-        let position = authored.record.surface.point(uv.x, uv.y);
+        let position = authored.surface.point(uv.x, uv.y);
         Some(crate::editor::picking::Hit { face, uv, position })
     });
     picker.answer = Some((pixel, hit));

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use bevy::ecs::entity::EntityIndexMap;
 use bevy::prelude::*;
 
 use super::Selection;
@@ -38,16 +39,17 @@ pub(super) fn command_requests(
     }
 }
 
-/// Writes [`Shown`] where it changes.
+/// Replaces [`Shown`] where it changes.
 pub(super) fn apply(
     mut requests: MessageReader<VisibilityRequest>,
     scene: Res<Scene>,
-    mut shown: Query<&mut Shown>,
+    shown: Query<&Shown>,
+    mut commands: Commands,
 ) {
+    // What several requests of a frame come to, in the order in which the faces were first named.
+    let mut wanted = EntityIndexMap::<bool>::default();
     let mut set = |face: Entity, value: bool| {
-        if let Ok(mut shown) = shown.get_mut(face) {
-            shown.set_if_neq(Shown(value));
-        }
+        wanted.insert(face, value);
     };
     for request in requests.read() {
         match request {
@@ -58,6 +60,11 @@ pub(super) fn apply(
                 scene.faces().for_each(|f| set(f, keep.contains(&f)));
             }
             VisibilityRequest::ShowAll => scene.faces().for_each(|f| set(f, true)),
+        }
+    }
+    for (face, value) in wanted {
+        if shown.get(face).is_ok_and(|s| s.0 != value) {
+            commands.entity(face).insert(Shown(value));
         }
     }
 }

@@ -17,6 +17,8 @@ pub enum Action {
     Cancel,
     CloseAll,
     Quit,
+    Undo,
+    Redo,
     SelectAll,
     InvertSelection,
     ClearSelection,
@@ -79,6 +81,10 @@ pub struct Situation {
     pub selection: bool,
     /// At least one face is hidden.
     pub hidden: bool,
+    /// There is a step to undo, or a drag to take back.
+    pub undo: bool,
+    /// There is a step to redo.
+    pub redo: bool,
     /// A file is being read.
     pub loading: bool,
 }
@@ -115,6 +121,12 @@ const fn with_selection(s: &Situation) -> bool {
 }
 const fn with_hidden(s: &Situation) -> bool {
     s.hidden
+}
+const fn with_undo(s: &Situation) -> bool {
+    s.undo
+}
+const fn with_redo(s: &Situation) -> bool {
+    s.redo
 }
 const fn while_loading(s: &Situation) -> bool {
     s.loading
@@ -160,7 +172,12 @@ pub static COMMANDS: &[Command] = &[
         .when(while_loading),
     command(File, Action::CloseAll, "file.close", "Close all", &[key('w').ctrl()]).when(with_model),
     command(File, Action::Quit, "file.quit", "Quit", &[key('q').ctrl()]).separated(),
-    command(Edit, Action::SelectAll, "edit.select_all", "Select all", &[key('a').ctrl()]).when(with_model),
+    command(Edit, Action::Undo, "edit.undo", "Undo", &[key('z').ctrl()]).when(with_undo),
+    command(Edit, Action::Redo, "edit.redo", "Redo", &[key('z').ctrl().shift(), key('y').ctrl()])
+        .when(with_redo),
+    command(Edit, Action::SelectAll, "edit.select_all", "Select all", &[key('a').ctrl()])
+        .separated()
+        .when(with_model),
     command(Edit, Action::InvertSelection, "edit.invert", "Invert selection", &[key('a').ctrl().shift()])
         .when(with_model),
     command(Edit, Action::ClearSelection, "edit.clear", "Clear selection", &[code(KeyCode::Escape)])

@@ -5,8 +5,9 @@ use bevy::prelude::*;
 
 use super::command::{Action, COMMANDS, Command, CommandRequest, Situation};
 use super::key::Modifiers;
+use crate::editor::editing::Editing;
 use crate::editor::files::Loading;
-use crate::editor::object::{Scene, Shown};
+use crate::editor::object::{FaceChange, Scene, Shown};
 use crate::editor::selection::Selection;
 use crate::editor::viewport::Pointer;
 
@@ -20,11 +21,13 @@ pub(super) fn observe(
     scene: Res<Scene>,
     selection: Res<Selection>,
     loading: Res<Loading>,
+    editing: Res<Editing>,
     shown: Query<&Shown>,
-    changed: Query<(), Changed<Shown>>,
+    mut changes: MessageReader<FaceChange>,
     mut seen: Local<u64>,
 ) {
-    let hidden = if *seen != scene.revision || !changed.is_empty() {
+    let switched = changes.read().any(|c| matches!(c, FaceChange::Shown(_)));
+    let hidden = if *seen != scene.revision || switched {
         *seen = scene.revision;
         shown.iter().any(|s| !s.0)
     } else {
@@ -34,6 +37,8 @@ pub(super) fn observe(
         model: !scene.is_empty(),
         selection: !selection.is_empty(),
         hidden,
+        undo: editing.is_dragging() || editing.history().undo_count() > 0,
+        redo: editing.history().redo_count() > 0,
         loading: loading.is_active(),
     };
 }

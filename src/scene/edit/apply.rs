@@ -43,21 +43,12 @@ impl Change {
     /// As [`Self::apply`].
     pub fn apply_to_face(&self, record: &mut FaceRecord) -> Result<(), EditError> {
         match self {
-            Self::Curves { face, trim_loop, at, before, after } => {
-                let trim = loop_mut(record, *face, *trim_loop)?;
-                splice(&mut trim.curves, *at, before, after, || {
-                    format!("{face}, loop {}: its curves from {} on", trim_loop + 1, at + 1)
-                })
+            Self::Curves { face, trim_loop, .. } | Self::Role { face, trim_loop, .. } => {
+                self.apply_to_loop(loop_mut(record, *face, *trim_loop)?)
             }
             Self::Loops { face, at, before, after } => splice(&mut record.loops, *at, before, after, || {
                 format!("{face}: its loops from {} on", at + 1)
             }),
-            Self::Role { face, trim_loop, before, after } => {
-                let trim = loop_mut(record, *face, *trim_loop)?;
-                exchange(&mut trim.role, before, after, || {
-                    format!("the role of {face}, loop {}", trim_loop + 1)
-                })
-            }
             Self::Surface { face, before, after } => {
                 exchange(&mut record.surface, before, after, || format!("the surface of {face}"))
             }
@@ -73,6 +64,24 @@ impl Change {
                 Ok(())
             }
             Self::Faces { .. } | Self::Model { .. } | Self::Models { .. } => Ok(()),
+        }
+    }
+
+    /// Applies a change of one loop to its record, or leaves it as it is. Other changes do nothing here.
+    ///
+    /// # Errors
+    /// As [`Self::apply`].
+    pub fn apply_to_loop(&self, trim: &mut LoopRecord) -> Result<(), EditError> {
+        match self {
+            Self::Curves { face, trim_loop, at, before, after } => {
+                splice(&mut trim.curves, *at, before, after, || {
+                    format!("{face}, loop {}: its curves from {} on", trim_loop + 1, at + 1)
+                })
+            }
+            Self::Role { face, trim_loop, before, after } => exchange(&mut trim.role, before, after, || {
+                format!("the role of {face}, loop {}", trim_loop + 1)
+            }),
+            _ => Ok(()),
         }
     }
 }
