@@ -12,10 +12,17 @@ const MAX_LEVELS: u32 = 4u;
 const MAX_HALVINGS: u32 = 20u;
 const MAX_ENTRIES: u32 = 4096u;
 const BORDER: f32 = 4.8e-7;
+// The largest number below 1: trim tests are half open.
+const BELOW_ONE: f32 = 0.99999994;
+
+// By how much parameters and trim curves may be wrong from rounding. Faces that meet exactly overlap by as much, so
+// that no ray passes between them.
+const ROUNDING_UV: f32 = 1.2e-7;
 
 struct Verdict {
     inside: bool,
     evaluations: u32,
+    listed: bool,      // some curve is near
 }
 
 struct Crossing {
@@ -143,9 +150,15 @@ fn crossing(address: u32, ends: vec4f, entry: u32, u: f32, v: f32) -> Crossing {
     return Crossing(side < 0.0, MAX_HALVINGS);
 }
 
+// The k-th of four steps to points that rounding may have moved here.
+fn nudge(k: u32) -> vec2f {
+    let by = select(-ROUNDING_UV, ROUNDING_UV, (k & 1u) == 0u);
+    return select(vec2f(0.0, by), vec2f(by, 0.0), k < 2u);
+}
+
 fn classify(grid: GridHeader, u_in: f32, v_in: f32) -> Verdict {
     if (grid.columns == 0u || !(min(u_in, v_in) >= -BORDER && max(u_in, v_in) <= 1.0 + BORDER)) {
-        return Verdict(false, 0u);
+        return Verdict(false, 0u, false);
     }
     let u = min(max(u_in, 0.0), BELOW_ONE);
     let v = min(max(v_in, 0.0), BELOW_ONE);
@@ -191,5 +204,5 @@ fn classify(grid: GridHeader, u_in: f32, v_in: f32) -> Verdict {
         }
     }
     let inside = select((winding & 1) != 0, winding != 0, (grid.flags & GRID_NON_ZERO) != 0u);
-    return Verdict(inside, evaluations);
+    return Verdict(inside, evaluations, end > first);
 }

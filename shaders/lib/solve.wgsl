@@ -6,13 +6,6 @@
 // reach whichever they like: there each step goes to the nearer (or farther) zero of the exact tangent
 // plane bent by the model's curvature, so that the two are never confused.
 
-// Model axes seen from the viewer.
-struct Axes {
-    right: vec3f,
-    up: vec3f,
-    forward: vec3f,
-}
-
 // A cell as the solver sees it: its quadratic model in view axes, relative to the reference point.
 struct Piece {
     first_point: u32,
@@ -45,16 +38,10 @@ const FARTHER: u32 = 2u;
 const MAX_STEPS: u32 = 8u;
 // Rounding of cell parameters: cells overlap by this much so that no ray passes between them.
 const HAIR: f32 = 4e-6;
-// The largest number below 1: trim tests are half open.
-const BELOW_ONE: f32 = 0.99999994;
 // Error allowed to remain, in pixels.
 const PIXEL_TOLERANCE: f32 = 0.02;
 // Rounding of an evaluation in f32 relative to the size of a cell.
 const ROUNDING: f32 = 4e-7;
-
-fn axes_apply(axes: Axes, p: vec3f) -> vec3f {
-    return vec3f(dot(axes.right, p), dot(axes.up, p), dot(axes.forward, p));
-}
 
 fn project(ray: Ray, m: vec3f) -> vec2f {
     return m.xy - ray.slope * m.z;

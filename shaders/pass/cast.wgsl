@@ -136,9 +136,18 @@ fn fragment(in: Proxy) -> Visibility {
             uv = clamp(mix(in.uv.xy, in.uv.zw, 0.5 + 0.5 * root.x), vec2f(0.0), vec2f(BELOW_ONE));
             normal = root.normal;
             if (trim && in.ids.w != 0u) {
-                let verdict = classify(grid_header(in), uv.x, uv.y);
+                let grid = grid_header(in);
+                let verdict = classify(grid, uv.x, uv.y);
                 kept = verdict.inside;
                 curve_evaluations += verdict.evaluations;
+                // As a loop: see seeds.
+                for (var k = 0u; k < 4u; k++) {
+                    if (kept || !verdict.listed) {
+                        break;
+                    }
+                    let beside = uv + nudge(k);
+                    kept = classify(grid, beside.x, beside.y).inside;
+                }
             }
             found = kept || heat;
             if (found) {

@@ -4,7 +4,9 @@ pub mod arena;
 pub mod cell;
 pub mod coverage;
 pub mod face;
+pub mod level;
 pub mod look;
+pub mod mesh;
 pub mod options;
 pub mod scene;
 pub mod subdivision;
@@ -12,6 +14,7 @@ pub mod view;
 
 pub use face::FaceHeader;
 pub use look::Look;
+pub use mesh::{MeshOrigin, MeshScene, MeshShape, MeshVertex};
 pub use options::{DisplayMode, EdgeStyle, Image, RenderOptions, Theme};
 pub use scene::{FaceShape, FaceSlot, PackedScene};
 pub use view::{DepthRange, View};

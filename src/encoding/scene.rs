@@ -156,6 +156,13 @@ impl PackedScene {
         })
     }
 
+    /// Cells of one face, by position in the cell array; none while it is hidden.
+    pub fn cells_of(&self, slot: FaceSlot) -> Range<u32> {
+        let shown = self.header(slot).is_some_and(|h| h.flags & FaceHeader::VISIBLE != 0);
+        let entry = self.entries.get(slot.0 as usize).and_then(Option::as_ref).filter(|_| shown);
+        entry.map_or(0..0, |e| e.cells.clone())
+    }
+
     /// All cells, free ones included.
     pub fn cell_data(&self) -> &[Cell] {
         self.cells.data()

@@ -8,13 +8,13 @@ use crate::encoding::arena::Arena;
 
 /// One array on the GPU.
 #[derive(Debug)]
-struct Mirror {
+pub(super) struct Mirror {
     label: &'static str,
-    buffer: wgpu::Buffer,
+    pub buffer: wgpu::Buffer,
 }
 
 impl Mirror {
-    fn new(device: &wgpu::Device, label: &'static str, size: u64) -> Self {
+    pub fn new(device: &wgpu::Device, label: &'static str, size: u64) -> Self {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         let descriptor =
             wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
@@ -23,7 +23,7 @@ impl Mirror {
 
     /// Sends what changed; makes the buffer anew, with room to grow, when it is too small. Says how many
     /// bytes were sent and whether the buffer is a new one.
-    fn update<T: Pod>(
+    pub fn update<T: Pod>(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,

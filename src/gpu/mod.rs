@@ -8,6 +8,7 @@
 
 pub mod buffers;
 pub mod context;
+mod mesh;
 pub mod picture;
 pub mod pipelines;
 pub mod renderer;

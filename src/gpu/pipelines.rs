@@ -26,7 +26,7 @@ pub struct Pipelines {
     pub present_flat: Pass,
 }
 
-fn uniform(size: usize) -> wgpu::BindingType {
+pub(super) fn uniform(size: usize) -> wgpu::BindingType {
     wgpu::BindingType::Buffer {
         ty: wgpu::BufferBindingType::Uniform,
         has_dynamic_offset: true,
@@ -34,7 +34,7 @@ fn uniform(size: usize) -> wgpu::BindingType {
     }
 }
 
-const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {
+pub(super) const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {
     ty: wgpu::BufferBindingType::Storage { read_only: true },
     has_dynamic_offset: false,
     min_binding_size: None,
@@ -134,6 +134,26 @@ impl Pipelines {
             present_flat: build(device, &present(flat_fragment, unblended(format), None)),
         }
     }
+}
+
+/// The pipeline that draws triangles into the visibility buffer; both sides of a surface are seen.
+pub(super) fn mesh(device: &wgpu::Device) -> Pass {
+    build(
+        device,
+        &Recipe {
+            label: "mesh",
+            source: shaders::MESH,
+            fragment: "fragment",
+            bindings: &super::mesh::bindings(),
+            target: wgpu::ColorTargetState {
+                format: VISIBILITY_FORMAT,
+                blend: None,
+                write_mask: wgpu::ColorWrites::ALL,
+            },
+            depth: Some(wgpu::CompareFunction::Greater),
+            strip: false,
+        },
+    )
 }
 
 fn build(device: &wgpu::Device, recipe: &Recipe) -> Pass {

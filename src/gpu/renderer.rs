@@ -6,11 +6,12 @@ use glam::DVec3;
 
 use super::GpuError;
 use super::buffers::{SceneBuffers, Uploaded};
+use super::mesh::MeshPass;
 use super::pipelines::Pipelines;
 use super::targets::{Sum, Targets, within};
 use crate::encoding::options::cast_flags;
 use crate::encoding::view::DepthRange;
-use crate::encoding::{DisplayMode, EdgeStyle, Look, PackedScene, Theme, View};
+use crate::encoding::{DisplayMode, EdgeStyle, FaceSlot, Look, MeshScene, PackedScene, Theme, View};
 use crate::kernel::view::Camera;
 
 /// One sample of a picture.
@@ -53,6 +54,8 @@ pub struct Renderer {
     resolve_group: Option<wgpu::BindGroup>,
     present_group: Option<wgpu::BindGroup>,
     samples: u32,
+    /// Made when triangles are first drawn.
+    mesh: Option<MeshPass>,
 }
 
 impl Renderer {
@@ -86,6 +89,7 @@ impl Renderer {
             resolve_group: None,
             present_group: None,
             samples: 0,
+            mesh: None,
         }
     }
 
@@ -115,8 +119,61 @@ impl Renderer {
         if uploaded.renewed {
             self.cast_group = None;
             self.resolve_group = None;
+            if let Some(mesh) = &mut self.mesh {
+                mesh.renew();
+            }
         }
         Ok(uploaded)
+    }
+
+    /// Sends the triangles that [`MeshScene::select`] chose; call after [`Self::upload`] and before
+    /// [`Self::draw_meshes`]. `lacking`: the faces that it has no triangles of, which are cast.
+    ///
+    /// # Errors
+    /// An array is larger than the device can bind.
+    pub fn upload_meshes(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        meshes: &mut MeshScene,
+        scene: &PackedScene,
+        lacking: &[FaceSlot],
+    ) -> Result<Uploaded, GpuError> {
+        let mesh = self.mesh.get_or_insert_with(|| {
+            meshes.touch_all();
+            MeshPass::new(device)
+        });
+        mesh.update(device, queue, meshes, scene, lacking)
+    }
+
+    /// Draws one sample from triangles, trimmed per pixel, in place of [`Self::cast`].
+    pub fn draw_meshes(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        sample: &Sample,
+    ) {
+        let size = within(device, sample.size);
+        let view = View::new(&sample.camera, size, sample.jitter, sample.depth, cast_flags(sample.mode));
+        let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
+        if self.targets.size != size {
+            self.targets = Targets::new(device, size);
+            self.resolve_group = None;
+            self.present_group = None;
+        }
+        self.next = None;
+        self.view = view;
+        let uniform = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &self.uniforms,
+            offset: 0,
+            size: wgpu::BufferSize::new(size_of::<View>() as u64),
+        });
+        let cast = &self.pipelines.cast;
+        let Some(mesh) = &mut self.mesh else { return };
+        mesh.prepare(device, uniform, &self.buffers, cast);
+        let mut pass = begin_visibility(encoder, "mesh", &self.targets, true);
+        mesh.draw(&mut pass, slot, cast);
     }
 
     /// Casts the rays of one sample.
@@ -174,27 +231,7 @@ impl Renderer {
 
     fn draw_rays(&self, encoder: &mut wgpu::CommandEncoder, targets: &Targets, slot: u32, rows: Range<u32>) {
         let first = rows.start == 0;
-        let clear = |value: wgpu::Color| if first { wgpu::LoadOp::Clear(value) } else { wgpu::LoadOp::Load };
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("cast"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &targets.visibility_view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load: clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
-            })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &targets.depth_view,
-                depth_ops: Some(wgpu::Operations {
-                    load: if first { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load },
-                    store: wgpu::StoreOp::Store,
-                }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: None,
-            occlusion_query_set: None,
-            multiview_mask: None,
-        });
+        let mut pass = begin_visibility(encoder, "cast", targets, first);
         if self.order_count > 0 && !rows.is_empty() {
             pass.set_scissor_rect(0, rows.start, targets.size[0], rows.end - rows.start);
             pass.set_pipeline(&self.pipelines.cast.pipeline);
@@ -348,6 +385,36 @@ pub fn bounding_sphere(scene: &PackedScene) -> (DVec3, f64) {
     (bounds.centre(), 0.5 * bounds.diagonal())
 }
 
+/// A pass into visibility and depth; `first` clears them.
+fn begin_visibility<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    label: &str,
+    targets: &Targets,
+    first: bool,
+) -> wgpu::RenderPass<'a> {
+    let clear = |value: wgpu::Color| if first { wgpu::LoadOp::Clear(value) } else { wgpu::LoadOp::Load };
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &targets.visibility_view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+        })],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &targets.depth_view,
+            depth_ops: Some(wgpu::Operations {
+                load: if first { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load },
+                store: wgpu::StoreOp::Store,
+            }),
+            stencil_ops: None,
+        }),
+        timestamp_writes: None,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
+}
+
 fn order_buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("order"),
@@ -357,7 +424,7 @@ fn order_buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
     })
 }
 
-fn group(
+pub(super) fn group(
     device: &wgpu::Device,
     label: &str,
     layout: &wgpu::BindGroupLayout,

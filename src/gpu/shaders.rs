@@ -12,6 +12,7 @@ pub const CAST: &str = pieces!(
     "layout/view.wgsl",
     "layout/cell.wgsl",
     "layout/face.wgsl",
+    "lib/axes.wgsl",
     "lib/pack.wgsl",
     "lib/ray.wgsl",
     "lib/patch_jet.wgsl",
@@ -19,6 +20,17 @@ pub const CAST: &str = pieces!(
     "lib/solve.wgsl",
     "lib/classify.wgsl",
     "pass/cast.wgsl",
+);
+
+/// Draws triangles of the untrimmed surfaces, trimmed per pixel.
+pub const MESH: &str = pieces!(
+    "layout/view.wgsl",
+    "layout/face.wgsl",
+    "layout/mesh.wgsl",
+    "lib/axes.wgsl",
+    "lib/pack.wgsl",
+    "lib/classify.wgsl",
+    "pass/mesh.wgsl",
 );
 
 /// Shades the visibility buffer.
@@ -35,4 +47,5 @@ pub const RESOLVE: &str = pieces!(
 pub const PRESENT: &str = pieces!("layout/look.wgsl", "lib/shade.wgsl", "pass/present.wgsl");
 
 /// Every module with its name, for validation.
-pub const MODULES: [(&str, &str); 3] = [("cast", CAST), ("resolve", RESOLVE), ("present", PRESENT)];
+pub const MODULES: [(&str, &str); 4] =
+    [("cast", CAST), ("mesh", MESH), ("resolve", RESOLVE), ("present", PRESENT)];

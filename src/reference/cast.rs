@@ -93,8 +93,7 @@ pub fn cast(scene: &PackedScene, view: &View, cell: &Cell, piece: &Piece, pixel:
         let part = 0.5 + 0.5 * root.x;
         let uv = (low * (1.0 - part) + high * part).clamp(Vec2::ZERO, Vec2::splat(BELOW_ONE));
         let trimmed = face.flags & FaceHeader::TRIMMED != 0 && cell.flags & Cell::WHOLE == 0;
-        let kept =
-            if trim && trimmed { classify(&grid_view(scene, face), uv.x, uv.y, &mut counters) } else { true };
+        let kept = if trim && trimmed { is_kept(&grid_view(scene, face), uv, &mut counters) } else { true };
         if kept || heat {
             let word = if heat {
                 pack_heat(root.normal, counters.evaluations as u32, kept, evaluations)
@@ -105,6 +104,20 @@ pub fn cast(scene: &PackedScene, view: &View, cell: &Cell, piece: &Piece, pixel:
         }
     }
     Fragment::NONE
+}
+
+/// By how much parameters and trim curves may be wrong from rounding. Faces that meet exactly overlap by as much,
+/// so that no ray passes between them.
+const ROUNDING_UV: f32 = 1.2e-7;
+
+/// Whether the trims keep `uv`, or a point that rounding may have moved there.
+fn is_kept(grid: &GridView, uv: Vec2, counters: &mut Counters) -> bool {
+    let nudge = |k: u32| {
+        let by = if k & 1 == 0 { ROUNDING_UV } else { -ROUNDING_UV };
+        uv + if k < 2 { Vec2::new(by, 0.0) } else { Vec2::new(0.0, by) }
+    };
+    classify(grid, uv.x, uv.y, counters)
+        || (0..4).map(nudge).any(|p| classify(grid, p.x, p.y, &mut Counters::default()))
 }
 
 /// The trim grid of a face in the scene's arrays.

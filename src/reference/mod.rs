@@ -3,6 +3,8 @@
 
 pub mod bins;
 pub mod cast;
+pub mod holes;
+pub mod mesh;
 pub mod pack;
 pub mod patch_jet;
 pub mod ray;

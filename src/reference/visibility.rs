@@ -34,9 +34,13 @@ impl VisibilityBuffer {
 
 /// Draws `scene` as `view` sees it.
 pub fn draw(scene: &PackedScene, view: &View) -> VisibilityBuffer {
+    draw_cells(scene, view, scene.visible_cells().collect())
+}
+
+/// Draws some of the cells, by position in the cell array.
+pub fn draw_cells(scene: &PackedScene, view: &View, cells: Vec<u32>) -> VisibilityBuffer {
     let (width, height) = (view.size[0] as u32, view.size[1] as u32);
     let axes = view_axes(view);
-    let cells: Vec<u32> = scene.visible_cells().collect();
     let pieces: Vec<(u32, Piece, PixelRect)> = cells
         .par_iter()
         .filter_map(|index| {

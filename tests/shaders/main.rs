@@ -3,6 +3,7 @@
 
 mod bands;
 mod edits;
+mod exact_edges;
 mod modules;
 mod oracle;
 mod pictures;

@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use hairline::encoding::cell::Cell;
-use hairline::encoding::{FaceHeader, Look, View};
+use hairline::encoding::{FaceHeader, Look, MeshOrigin, MeshVertex, View};
 use hairline::gpu::shaders;
 use hairline::kernel::trim::grid::GridHeader;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -55,7 +55,11 @@ fn rust_mirrors_match_the_shaders() {
     let look = layout!(Look: background_top, background_bottom, edge, selected, hovered, slope_scale,
         offset_scale, jitter, size, depth, mode, edges, samples, edge_width, pixel, pad0, pad1);
     assert_eq!(members(&resolve, "Look"), look);
-    for module in [&cast, &resolve] {
+    let mesh = parse(shaders::MESH);
+    let vertex = layout!(MeshVertex: position, face, normal, flags, uv, pad0, pad1);
+    assert_eq!(members(&mesh, "MeshVertex"), vertex);
+    assert_eq!(members(&mesh, "MeshOrigin"), layout!(MeshOrigin: high, pad0, low, pad1));
+    for module in [&cast, &mesh, &resolve] {
         let (mut list, span) = members(module, "FaceHeader");
         list.retain(|(name, _)| !name.starts_with("pad"));
         assert_eq!((list, span), layout!(FaceHeader: colour, flags, number, grid));
@@ -77,6 +81,7 @@ fn constants_match() {
     assert_eq!(find(&cast, "CAST_HEAT"), hairline::encoding::view::CAST_HEAT);
     assert_eq!(find(&cast, "CELL_WHOLE"), Cell::WHOLE);
     assert_eq!(find(&cast, "FACE_TRIMMED"), FaceHeader::TRIMMED);
+    assert_eq!(find(&parse(shaders::MESH), "MESH_WHOLE"), MeshVertex::WHOLE);
     let resolve = parse(shaders::RESOLVE);
     assert_eq!(find(&resolve, "FACE_VISIBLE"), FaceHeader::VISIBLE);
     assert_eq!(find(&resolve, "FACE_SELECTED"), FaceHeader::SELECTED);

@@ -1,0 +1,21 @@
+// A vertex of a face's untrimmed triangles. Mirror: encoding::mesh::MeshVertex.
+struct MeshVertex {
+    position: vec3f,   // model units relative to the face's MeshOrigin
+    face: u32,         // slot in the face table
+    normal: vec3f,     // du x dv, unit, model axes
+    flags: u32,        // MESH_WHOLE
+    uv: vec2f,         // face-normalised
+    pad0: u32,
+    pad1: u32,
+}
+
+// Where the vertices of a face are measured from: high + low, model units. Mirror: encoding::mesh::MeshOrigin.
+struct MeshOrigin {
+    high: vec3f,
+    pad0: u32,
+    low: vec3f,
+    pad1: u32,
+}
+
+// No trim curve passes through the triangle: everything on it is kept.
+const MESH_WHOLE: u32 = 1u;

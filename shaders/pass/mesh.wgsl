@@ -1,0 +1,66 @@
+// Triangles of the untrimmed surfaces with exact trims per pixel (Schollmeyer & Froehlich 2009, figure 10).
+// Writes the same visibility buffer as the rays: (face slot + 1, u, v, normal or counts) and depth.
+
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<storage, read> vertices: array<MeshVertex>;
+@group(0) @binding(2) var<storage, read> origins: array<MeshOrigin>;
+@group(0) @binding(3) var<storage, read> faces: array<FaceHeader>;
+@group(0) @binding(4) var<storage, read> trim_cells: array<u32>;
+@group(0) @binding(5) var<storage, read> trim_entries: array<u32>;
+@group(0) @binding(6) var<storage, read> trim_data: array<vec4f>;
+
+fn load_trim_cell(index: u32) -> u32 {
+    return trim_cells[index];
+}
+
+fn load_trim_entry(index: u32) -> u32 {
+    return trim_entries[index];
+}
+
+fn load_trim_data(index: u32) -> vec4f {
+    return trim_data[index];
+}
+
+struct Corner {
+    @builtin(position) position: vec4f,
+    @location(0) uv: vec2f,
+    @location(1) normal: vec3f,                    // view axes
+    @location(2) @interpolate(flat) ids: vec2u,    // face slot, 1: trim
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Corner {
+    let v = vertices[index];
+    let face = faces[v.face];
+    let axes = Axes(view.right.xyz, view.up.xyz, view.forward.xyz);
+    let origin = origins[v.face];
+    let high = origin.high - view.reference_high.xyz;
+    let low = origin.low - view.reference_low.xyz;
+    let p = axes_apply(axes, high + low) + axes_apply(axes, v.position);
+    let w = view.depth.z + view.depth.w * p.z;
+    let jitter = 2.0 * view.jitter / view.size * vec2f(1.0, -1.0);
+    var out: Corner;
+    out.position = vec4f(p.xy * view.clip_scale - jitter * w, view.depth.x + view.depth.y * p.z, w);
+    out.uv = v.uv;
+    out.normal = axes_apply(axes, v.normal);
+    let trimmed = (face.flags & FACE_TRIMMED) != 0u && (v.flags & MESH_WHOLE) == 0u;
+    out.ids = vec2u(v.face, u32(trimmed));
+    return out;
+}
+
+@fragment
+fn fragment(in: Corner) -> @location(0) vec4u {
+    let uv = clamp(in.uv, vec2f(0.0), vec2f(BELOW_ONE));
+    let trim = (view.flags & CAST_TRIM) != 0u;
+    let heat = (view.flags & CAST_HEAT) != 0u;
+    var verdict = Verdict(true, 0u, false);
+    if (trim && in.ids.y != 0u) {
+        verdict = classify(faces[in.ids.x].grid, uv.x, uv.y);
+    }
+    if (!verdict.inside && !heat) {
+        discard;
+    }
+    let normal = in.normal / max(length(in.normal), 1e-37);
+    let word = select(pack_normal(normal), pack_heat(normal, verdict.evaluations, verdict.inside, 0u), heat);
+    return vec4u(in.ids.x + 1u, bitcast<u32>(uv.x), bitcast<u32>(uv.y), word);
+}

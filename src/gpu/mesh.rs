@@ -1,0 +1,157 @@
+//! The second renderer: triangles of the untrimmed surfaces, trimmed per pixel by the same functions as the rays
+//! (Schollmeyer & Froehlich 2009, section 5, figure 10), into the same visibility buffer.
+//!
+//! What is drawn is what [`MeshScene::select`] chose; faces that have no triangles are cast in the same pass.
+
+use super::GpuError;
+use super::buffers::{Mirror, SceneBuffers, Uploaded};
+use super::pipelines::{self, Pass};
+use crate::encoding::{FaceSlot, MeshScene, PackedScene, View};
+
+/// Buffers, pipeline and draw list.
+#[derive(Debug)]
+pub(super) struct MeshPass {
+    pass: Pass,
+    vertices: Mirror,
+    origins: Mirror,
+    indices: wgpu::Buffer,
+    index_count: u32,
+    revision: Option<u64>,
+    group: Option<wgpu::BindGroup>,
+    /// Cells of the faces without triangles.
+    order: wgpu::Buffer,
+    order_count: u32,
+    cast_group: Option<wgpu::BindGroup>,
+    lacking: (Vec<FaceSlot>, Option<u64>),
+}
+
+impl MeshPass {
+    pub fn new(device: &wgpu::Device) -> Self {
+        Self {
+            pass: pipelines::mesh(device),
+            vertices: Mirror::new(device, "mesh vertices", 4096),
+            origins: Mirror::new(device, "mesh origins", 4096),
+            indices: buffer(device, "mesh indices", 4096, wgpu::BufferUsages::INDEX),
+            index_count: 0,
+            revision: None,
+            group: None,
+            order: buffer(device, "mesh order", 4096, wgpu::BufferUsages::STORAGE),
+            order_count: 0,
+            cast_group: None,
+            lacking: (Vec::new(), None),
+        }
+    }
+
+    /// Sends what changed. `lacking`: the faces to cast.
+    pub fn update(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        meshes: &mut MeshScene,
+        scene: &PackedScene,
+        lacking: &[FaceSlot],
+    ) -> Result<Uploaded, GpuError> {
+        let (mut bytes, first) = self.vertices.update(device, queue, &mut meshes.vertices)?;
+        let (more, second) = self.origins.update(device, queue, &mut meshes.origins)?;
+        bytes += more;
+        if first || second {
+            self.group = None;
+        }
+        if self.revision != Some(meshes.revision()) {
+            let data: &[u8] = bytemuck::cast_slice(meshes.indices());
+            fit(device, &mut self.indices, "mesh indices", data.len(), wgpu::BufferUsages::INDEX);
+            queue.write_buffer(&self.indices, 0, data);
+            self.index_count = meshes.indices().len() as u32;
+            self.revision = Some(meshes.revision());
+            bytes += data.len() as u64;
+        }
+        if self.lacking.0 != lacking || self.lacking.1 != Some(scene.revision()) {
+            let order: Vec<u32> = lacking.iter().flat_map(|slot| scene.cells_of(*slot)).collect();
+            let data: &[u8] = bytemuck::cast_slice(&order);
+            if fit(device, &mut self.order, "mesh order", data.len(), wgpu::BufferUsages::STORAGE) {
+                self.cast_group = None;
+            }
+            queue.write_buffer(&self.order, 0, data);
+            self.order_count = order.len() as u32;
+            self.lacking = (lacking.to_vec(), Some(scene.revision()));
+            bytes += data.len() as u64;
+        }
+        Ok(Uploaded { bytes, renewed: first || second })
+    }
+
+    /// The scene's buffers were made anew.
+    pub fn renew(&mut self) {
+        self.group = None;
+        self.cast_group = None;
+    }
+
+    /// Makes the bind groups that [`Self::draw`] uses.
+    pub fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        uniform: wgpu::BindingResource,
+        buffers: &SceneBuffers,
+        cast: &Pass,
+    ) {
+        let [_, _, faces, trim_cells, trim_entries, trim_data] = buffers.bindings();
+        if self.group.is_none() {
+            let storage =
+                [&self.vertices.buffer, &self.origins.buffer, faces, trim_cells, trim_entries, trim_data];
+            let mut resources = vec![uniform.clone()];
+            resources.extend(storage.map(wgpu::Buffer::as_entire_binding));
+            self.group = Some(super::renderer::group(device, "mesh", &self.pass.layout, resources));
+        }
+        if self.cast_group.is_none() {
+            let mut resources = vec![uniform, self.order.as_entire_binding()];
+            resources.extend(buffers.bindings().map(|b| b.as_entire_binding()));
+            self.cast_group = Some(super::renderer::group(device, "mesh rays", &cast.layout, resources));
+        }
+    }
+
+    /// Draws triangles, then casts what has none; `view_slot` is the offset of the view's uniform block.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass, view_slot: u32, cast: &Pass) {
+        if self.index_count > 0 {
+            pass.set_pipeline(&self.pass.pipeline);
+            pass.set_bind_group(0, &self.group, &[view_slot]);
+            pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(0..self.index_count, 0, 0..1);
+        }
+        if self.order_count > 0 {
+            pass.set_pipeline(&cast.pipeline);
+            pass.set_bind_group(0, &self.cast_group, &[view_slot]);
+            pass.draw(0..14, 0..self.order_count);
+        }
+    }
+}
+
+/// Bindings of the pass: the view and six arrays.
+pub(super) fn bindings() -> Vec<wgpu::BindingType> {
+    let mut list = vec![pipelines::uniform(size_of::<View>())];
+    list.extend([pipelines::STORAGE; 6]);
+    list
+}
+
+fn buffer(device: &wgpu::Device, label: &str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    let usage = usage | wgpu::BufferUsages::COPY_DST;
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size,
+        usage,
+        mapped_at_creation: false,
+    })
+}
+
+/// Makes a buffer anew if `bytes` do not fit. Says whether it did.
+fn fit(
+    device: &wgpu::Device,
+    held: &mut wgpu::Buffer,
+    label: &str,
+    bytes: usize,
+    usage: wgpu::BufferUsages,
+) -> bool {
+    let small = bytes as u64 > held.size();
+    if small {
+        *held = buffer(device, label, (bytes as u64 * 3 / 2).next_multiple_of(256), usage);
+    }
+    small
+}
