@@ -185,3 +185,31 @@ fn the_part_keeps_its_curves() {
     let curves: usize = model.faces.iter().flat_map(|f| &f.loops).map(|l| l.curves.len()).sum();
     assert_eq!(curves, 600);
 }
+
+#[test]
+fn edges_of_a_solid_bound_two_faces_each() {
+    let Some(models) = truth::models() else { return };
+    let (model, _) = iges::read(&models.join("files/elmer_cylinder_in_channel.iges")).unwrap();
+    let mut uses = std::collections::BTreeMap::new();
+    for (face, record) in model.faces.iter().enumerate() {
+        for trim in &record.loops {
+            for curve in 0..trim.curves.len() {
+                let edge = trim.edge(curve).unwrap_or_else(|| panic!("no edge: face {}", face + 1));
+                uses.entry(edge).or_insert_with(Vec::new).push((face, trim, curve));
+            }
+        }
+    }
+    for (edge, uses) in &uses {
+        let [(a, first, i), (b, second, j)] = uses[..] else { panic!("{edge:?}: {}", uses.len()) };
+        // The two sides meet in space, run through in opposite directions as seen from outside.
+        let ends = |face: usize, curve: &hairline::kernel::nurbs::NurbsCurve2| {
+            let (s, e) = curve.domain();
+            [curve.point(s), curve.point(e)].map(|uv| model.faces[face].surface.point(uv.x, uv.y))
+        };
+        let (x, mut y) = (ends(a, &first.curves[i]), ends(b, &second.curves[j]));
+        if model.faces[a].reversed != model.faces[b].reversed {
+            y.reverse();
+        }
+        assert!(x[0].distance(y[1]) < 1e-6 && x[1].distance(y[0]) < 1e-6, "{edge:?}: {x:?} {y:?}");
+    }
+}

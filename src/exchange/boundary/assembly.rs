@@ -7,8 +7,7 @@
 
 use glam::DVec2;
 
-use super::{end, shifted, start};
-use crate::kernel::nurbs::NurbsCurve2;
+use super::Piece;
 use crate::kernel::query::Carrier;
 
 /// Pole passages of one loop for which all ways are tried.
@@ -16,33 +15,33 @@ const MOST_POLES: usize = 5;
 
 /// Puts `pieces` end to start: reverses and shifts pieces by periods where that closes gaps. Gaps
 /// that stay are bridged by straight lines, except the last one (see [`super::winding`]).
-pub fn chain(carrier: &Carrier, pieces: Vec<NurbsCurve2>) -> Vec<NurbsCurve2> {
+pub fn chain(carrier: &Carrier, pieces: Vec<Piece>) -> Vec<Piece> {
     let pieces = match reordered(&pieces) {
         Some(order) => return order.into_iter().map(|k| pieces[k].clone()).collect(),
         None => pieces,
     };
     let gap = |a: DVec2, b: DVec2| (carrier.point(a) - carrier.point(b)).length();
-    let mut result: Vec<NurbsCurve2> = Vec::with_capacity(pieces.len());
+    let mut result: Vec<Piece> = Vec::with_capacity(pieces.len());
     let count = pieces.len();
     for (index, piece) in pieces.iter().enumerate() {
         let oriented = match result.last() {
             Some(last) => {
-                let at = end(last);
-                let (ahead, back) = (gap(at, start(piece)), gap(at, end(piece)));
+                let at = last.end();
+                let (ahead, back) = (gap(at, piece.start()), gap(at, piece.end()));
                 if back < 0.1 * ahead { piece.reversed() } else { piece.clone() }
             }
             // The first piece is turned when that lets the second one follow.
             None if count > 1 => {
                 let next = &pieces[index + 1];
-                let reach = |p: DVec2| gap(p, start(next)).min(gap(p, end(next)));
-                let (ahead, back) = (reach(end(piece)), reach(start(piece)));
+                let reach = |p: DVec2| gap(p, next.start()).min(gap(p, next.end()));
+                let (ahead, back) = (reach(piece.end()), reach(piece.start()));
                 // A loop of two pieces meets at both ends: leave it as it is.
                 if back < 0.1 * ahead && count > 2 { piece.reversed() } else { piece.clone() }
             }
             None => piece.clone(),
         };
         let moved = match result.last() {
-            Some(last) => shifted(&oriented, -nearest_period(carrier, start(&oriented) - end(last))),
+            Some(last) => oriented.shifted(-nearest_period(carrier, oriented.start() - last.end())),
             None => oriented,
         };
         result.push(moved);
@@ -53,12 +52,12 @@ pub fn chain(carrier: &Carrier, pieces: Vec<NurbsCurve2>) -> Vec<NurbsCurve2> {
 
 /// The order in which pieces that close in uv as they are follow each other. Files list them as they
 /// meet in space, which on a seam need not be as they meet in uv. `None` when they do not close.
-fn reordered(pieces: &[NurbsCurve2]) -> Option<Vec<usize>> {
+fn reordered(pieces: &[Piece]) -> Option<Vec<usize>> {
     /// Far above rounding in files, far below any piece that matters.
     const MET: f64 = 1e-7;
     let (min, max) = super::bounds_of_ends(pieces)?;
     let size = (max - min).max(DVec2::splat(f64::MIN_POSITIVE));
-    let gap = |a: usize, b: usize| ((start(&pieces[b]) - end(&pieces[a])).abs() / size).max_element();
+    let gap = |a: usize, b: usize| ((pieces[b].start() - pieces[a].end()).abs() / size).max_element();
     let mut order = vec![0];
     let mut left: Vec<usize> = (1..pieces.len()).collect();
     while !left.is_empty() {
@@ -81,22 +80,22 @@ pub fn nearest_period(carrier: &Carrier, difference: DVec2) -> DVec2 {
 }
 
 /// Straight lines across the inner gaps.
-fn bridge(carrier: &Carrier, pieces: Vec<NurbsCurve2>) -> Vec<NurbsCurve2> {
-    let closing = nearest_period(carrier, pieces.last().map_or(DVec2::ZERO, |l| end(l) - start(&pieces[0])));
-    let mut result: Vec<NurbsCurve2> = Vec::with_capacity(pieces.len());
+fn bridge(carrier: &Carrier, pieces: Vec<Piece>) -> Vec<Piece> {
+    let closing = nearest_period(carrier, pieces.last().map_or(DVec2::ZERO, |l| l.end() - pieces[0].start()));
+    let mut result: Vec<Piece> = Vec::with_capacity(pieces.len());
     for piece in pieces {
         if let Some(last) = result.last() {
-            let (a, b) = (end(last), start(&piece));
+            let (a, b) = (last.end(), piece.start());
             if is_gap(a, b) {
-                result.push(NurbsCurve2::line(a, b));
+                result.push(Piece::line(a, b));
             }
         }
         result.push(piece);
     }
     if let (Some(first), Some(last)) = (result.first(), result.last()) {
-        let (a, b) = (end(last), start(first));
+        let (a, b) = (last.end(), first.start());
         if closing == DVec2::ZERO && is_gap(a, b) {
-            result.push(NurbsCurve2::line(a, b));
+            result.push(Piece::line(a, b));
         }
     }
     result
@@ -109,7 +108,7 @@ fn is_gap(a: DVec2, b: DVec2) -> bool {
 }
 
 /// Decides how u (or v) goes on at poles: `pieces[i]` and all after it move by periods.
-fn turn_at_poles(carrier: &Carrier, pieces: &mut [NurbsCurve2]) {
+fn turn_at_poles(carrier: &Carrier, pieces: &mut [Piece]) {
     let periods = carrier.periods();
     for axis in 0..2 {
         let Some(period) = periods[axis] else { continue };
@@ -122,7 +121,7 @@ fn turn_at_poles(carrier: &Carrier, pieces: &mut [NurbsCurve2]) {
                 if along[before] || along[*i] {
                     return false;
                 }
-                let (a, b) = (end(&pieces[before]), start(&pieces[*i]));
+                let (a, b) = (pieces[before].end(), pieces[*i].start());
                 // Only where the other coordinate agrees: the pole is one line of the domain.
                 carrier.is_singular(a)[axis] && carrier.is_singular(b)[axis]
             })
@@ -133,24 +132,24 @@ fn turn_at_poles(carrier: &Carrier, pieces: &mut [NurbsCurve2]) {
         if let Some(shifts) = best_turns(pieces, axis, period, &joints) {
             for (piece, shift) in pieces.iter_mut().zip(shifts) {
                 let by = if axis == 0 { DVec2::new(shift, 0.0) } else { DVec2::new(0.0, shift) };
-                *piece = shifted(piece, by);
+                *piece = piece.shifted(by);
             }
         }
     }
 }
 
-fn runs_along_pole(carrier: &Carrier, piece: &NurbsCurve2, axis: usize, period: f64) -> bool {
-    let (a, b) = (start(piece), end(piece));
+fn runs_along_pole(carrier: &Carrier, piece: &Piece, axis: usize, period: f64) -> bool {
+    let (a, b) = (piece.start(), piece.end());
     (b - a)[axis].abs() > 1e-6 * period && carrier.is_singular(a)[axis] && carrier.is_singular(b)[axis]
 }
 
 /// Shifts of every piece that close the loop best.
-fn best_turns(pieces: &[NurbsCurve2], axis: usize, period: f64, joints: &[usize]) -> Option<Vec<f64>> {
+fn best_turns(pieces: &[Piece], axis: usize, period: f64, joints: &[usize]) -> Option<Vec<f64>> {
     let other = 1 - axis;
     let count = pieces.len();
     let (low, high) = pieces
         .iter()
-        .flat_map(|p| [start(p)[other], end(p)[other]])
+        .flat_map(|p| [p.start()[other], p.end()[other]])
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
     let mut best: Option<((usize, f64), Vec<f64>)> = None;
     let choices = 3usize.pow(joints.len() as u32);
@@ -178,7 +177,7 @@ fn best_turns(pieces: &[NurbsCurve2], axis: usize, period: f64, joints: &[usize]
                 if axis == 0 { DVec2::new(p.x + shift, p.y) } else { DVec2::new(p.y + shift, p.x) }
             };
             if let Some(last) = previous {
-                let next = at(start(piece));
+                let next = at(piece.start());
                 area += last.perp_dot(next);
                 let jump = next.x - last.x;
                 if joints.contains(&(k % count)) {
@@ -193,10 +192,10 @@ fn best_turns(pieces: &[NurbsCurve2], axis: usize, period: f64, joints: &[usize]
             }
             if k < count {
                 const PARTS: usize = 16;
-                let (a, b) = piece.domain();
-                let mut p = at(start(piece));
+                let (a, b) = piece.curve.domain();
+                let mut p = at(piece.start());
                 for s in 1..=PARTS {
-                    let q = at(piece.point(a + (b - a) * s as f64 / PARTS as f64));
+                    let q = at(piece.curve.point(a + (b - a) * s as f64 / PARTS as f64));
                     area += p.perp_dot(q);
                     p = q;
                 }

@@ -35,13 +35,12 @@ pub fn finish(
     loops: Vec<RawLoop>,
     tolerance: f64,
 ) -> Result<(NurbsSurface, Vec<LoopRecord>), FinishError> {
-    let record = |l: RawLoop| LoopRecord::new(l.role, l.curves);
     match carrier {
         Carrier::Spline(spline) => {
             if let Some(cut) = sweep.and_then(|s| cut_sweep(s, &loops, tolerance).transpose()) {
                 return cut;
             }
-            Ok((spline.into_surface(), loops.into_iter().map(record).collect()))
+            Ok((spline.into_surface(), loops.iter().map(|l| record(l, NurbsCurve2::clone)).collect()))
         }
         Carrier::Analytic(surface) => {
             let (min, max) = extent(&surface, &loops)?;
@@ -60,13 +59,19 @@ pub fn finish(
                 }
                 map_curve(c, bent, false, &map, tolerance, &mut distance).unwrap_or_else(|| c.map_points(map))
             };
-            let loops = loops
-                .iter()
-                .map(|l| LoopRecord::new(l.role, l.curves.iter().map(&mut convert).collect()))
-                .collect();
+            let loops = loops.iter().map(|l| record(l, &mut convert)).collect();
             Ok((spline, loops))
         }
     }
+}
+
+/// A loop with its curves converted, and their edges if any is known.
+fn record(raw: &RawLoop, convert: impl FnMut(&NurbsCurve2) -> NurbsCurve2) -> LoopRecord {
+    let mut record = LoopRecord::new(raw.role, raw.curves().map(convert).collect());
+    if raw.pieces.iter().any(|p| p.edge.is_some()) {
+        record.edges = raw.pieces.iter().map(|p| p.edge).collect();
+    }
+    record
 }
 
 /// A swept surface whose arcs are cut to the extent of the loops; `None` when they need no cut.
@@ -76,7 +81,7 @@ fn cut_sweep(
     tolerance: f64,
 ) -> Result<Option<(NurbsSurface, Vec<LoopRecord>)>, FinishError> {
     let arcs = sweep.arcs();
-    let Some((min, max)) = bounds(loops.iter().flat_map(|l| &l.curves)) else { return Ok(None) };
+    let Some((min, max)) = bounds(loops.iter().flat_map(RawLoop::curves)) else { return Ok(None) };
     let mut ranges = arcs;
     for axis in 0..2 {
         let Some((start, end)) = arcs[axis] else { continue };
@@ -109,8 +114,7 @@ fn cut_sweep(
     let mut convert = |c: &NurbsCurve2| {
         map_curve(c, bent, false, &map, tolerance, &mut distance).unwrap_or_else(|| c.map_points(map))
     };
-    let loops =
-        loops.iter().map(|l| LoopRecord::new(l.role, l.curves.iter().map(&mut convert).collect())).collect();
+    let loops = loops.iter().map(|l| record(l, &mut convert)).collect();
     Ok(Some((spline, loops)))
 }
 
@@ -118,7 +122,7 @@ fn cut_sweep(
 fn extent(surface: &AnalyticSurface, loops: &[RawLoop]) -> Result<(DVec2, DVec2), FinishError> {
     let periods = surface.periods();
     let limits = surface.limits_v();
-    let Some((mut min, mut max)) = bounds(loops.iter().flat_map(|l| &l.curves)) else {
+    let Some((mut min, mut max)) = bounds(loops.iter().flat_map(RawLoop::curves)) else {
         return match (periods, limits) {
             ([Some(u), Some(v)], _) => Ok((DVec2::ZERO, DVec2::new(u, v))),
             ([Some(u), None], (low, high)) if low.is_finite() && high.is_finite() => {

@@ -13,7 +13,7 @@ pub mod winding;
 use glam::DVec2;
 
 use crate::kernel::nurbs::NurbsCurve2;
-use crate::scene::records::LoopRole;
+use crate::scene::records::{EdgeId, LoopRole};
 
 /// A loop in the natural parameters of its carrier.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +21,50 @@ pub struct RawLoop {
     /// What the file says it is.
     pub role: LoopRole,
     /// Pcurves in order.
-    pub curves: Vec<NurbsCurve2>,
+    pub pieces: Vec<Piece>,
+}
+
+/// A pcurve on its way into a loop.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Piece {
+    /// The curve.
+    pub curve: NurbsCurve2,
+    /// The edge of the model it lies on, where the file says so.
+    pub edge: Option<EdgeId>,
+}
+
+impl Piece {
+    /// A straight line that no edge is known of.
+    pub fn line(from: DVec2, to: DVec2) -> Self {
+        Self { curve: NurbsCurve2::line(from, to), edge: None }
+    }
+
+    /// First point.
+    pub fn start(&self) -> DVec2 {
+        start(&self.curve)
+    }
+
+    /// Last point.
+    pub fn end(&self) -> DVec2 {
+        end(&self.curve)
+    }
+
+    /// The piece run through backwards.
+    pub fn reversed(&self) -> Self {
+        Self { curve: self.curve.reversed(), edge: self.edge }
+    }
+
+    /// The piece moved by `by`.
+    pub fn shifted(&self, by: DVec2) -> Self {
+        Self { curve: shifted(&self.curve, by), edge: self.edge }
+    }
+}
+
+impl RawLoop {
+    /// Its curves.
+    pub fn curves(&self) -> impl Iterator<Item = &NurbsCurve2> + Clone {
+        self.pieces.iter().map(|p| &p.curve)
+    }
 }
 
 /// First point of a curve.
@@ -39,9 +82,9 @@ pub fn shifted(curve: &NurbsCurve2, by: DVec2) -> NurbsCurve2 {
     if by == DVec2::ZERO { curve.clone() } else { curve.map_points(|p| p + by) }
 }
 
-/// Box (min, max) of the ends of `curves`.
-pub fn bounds_of_ends(curves: &[NurbsCurve2]) -> Option<(DVec2, DVec2)> {
-    curves.iter().flat_map(|c| [start(c), end(c)]).fold(None, |b: Option<(DVec2, DVec2)>, p| {
+/// Box (min, max) of the ends of `pieces`.
+pub fn bounds_of_ends(pieces: &[Piece]) -> Option<(DVec2, DVec2)> {
+    pieces.iter().flat_map(|p| [p.start(), p.end()]).fold(None, |b: Option<(DVec2, DVec2)>, p| {
         Some(b.map_or((p, p), |(min, max)| (min.min(p), max.max(p))))
     })
 }

@@ -6,8 +6,7 @@
 
 use glam::DVec2;
 
-use super::{RawLoop, bounds, end, shifted, start};
-use crate::kernel::nurbs::NurbsCurve2;
+use super::{Piece, RawLoop, bounds};
 use crate::kernel::primitives::Shape;
 use crate::kernel::query::Carrier;
 use crate::scene::records::LoopRole;
@@ -26,9 +25,9 @@ pub fn close(carrier: &Carrier, loops: &mut Vec<RawLoop>) -> Vec<String> {
 }
 
 /// Periods by which a loop's end lies beyond its start.
-fn turns(curves: &[NurbsCurve2], axis: usize, period: f64) -> f64 {
-    match (curves.first(), curves.last()) {
-        (Some(first), Some(last)) => ((end(last) - start(first))[axis] / period).round(),
+fn turns(pieces: &[Piece], axis: usize, period: f64) -> f64 {
+    match (pieces.first(), pieces.last()) {
+        (Some(first), Some(last)) => ((last.end() - first.start())[axis] / period).round(),
         _ => 0.0,
     }
 }
@@ -41,20 +40,20 @@ fn close_axis(
     problems: &mut Vec<String>,
 ) {
     let (mut winding, plain): (Vec<RawLoop>, Vec<RawLoop>) =
-        std::mem::take(loops).into_iter().partition(|l| turns(&l.curves, axis, period) != 0.0);
+        std::mem::take(loops).into_iter().partition(|l| turns(&l.pieces, axis, period) != 0.0);
     *loops = plain;
     if winding.is_empty() {
         return;
     }
-    if winding.iter().any(|l| turns(&l.curves, axis, period).abs() > 1.5) {
+    if winding.iter().any(|l| turns(&l.pieces, axis, period).abs() > 1.5) {
         problems.push("a boundary runs round the surface more than once".into());
     }
     let seam = seam(carrier, axis);
     for l in &mut winding {
-        l.curves = cut_at(std::mem::take(&mut l.curves), axis, period, seam);
+        l.pieces = cut_at(std::mem::take(&mut l.pieces), axis, period, seam);
     }
-    let height = |l: &RawLoop| start(&l.curves[0])[1 - axis];
-    winding.retain(|l| !l.curves.is_empty());
+    let height = |l: &RawLoop| l.pieces[0].start()[1 - axis];
+    winding.retain(|l| !l.pieces.is_empty());
     winding.sort_by(|a, b| height(a).total_cmp(&height(b)));
     let mut merged = Vec::new();
     let mut rest = winding.into_iter();
@@ -81,9 +80,9 @@ fn seam(carrier: &Carrier, axis: usize) -> f64 {
 }
 
 /// Rotates and shifts a winding loop so that it starts on the seam.
-fn cut_at(curves: Vec<NurbsCurve2>, axis: usize, period: f64, seam: f64) -> Vec<NurbsCurve2> {
-    let sign = turns(&curves, axis, period).signum();
-    let from = start(&curves[0])[axis];
+fn cut_at(pieces: Vec<Piece>, axis: usize, period: f64, seam: f64) -> Vec<Piece> {
+    let sign = turns(&pieces, axis, period).signum();
+    let from = pieces[0].start()[axis];
     // The first seam position on the way.
     let ahead = ((from - seam) * sign / period).ceil().mul_add(period, seam * sign) * sign;
     let level = if (ahead - from).abs() < 1e-9 * period { from } else { ahead };
@@ -92,12 +91,13 @@ fn cut_at(curves: Vec<NurbsCurve2>, axis: usize, period: f64, seam: f64) -> Vec<
     let mut after = Vec::new();
     let crossed = |p: DVec2| (p[axis] - level) * sign >= 0.0;
     if level == from {
-        after = curves;
+        after = pieces;
     } else {
-        for curve in curves {
+        for piece in pieces {
             if !after.is_empty() {
-                after.push(curve);
-            } else if crossed(end(&curve)) && !crossed(start(&curve)) {
+                after.push(piece);
+            } else if crossed(piece.end()) && !crossed(piece.start()) {
+                let curve = &piece.curve;
                 let (a, b) = curve.domain();
                 let (mut low, mut high) = (a, b);
                 for _ in 0..100 {
@@ -107,27 +107,27 @@ fn cut_at(curves: Vec<NurbsCurve2>, axis: usize, period: f64, seam: f64) -> Vec<
                 let close = 1e-9 * (b - a);
                 match (curve.restricted(a, low), curve.restricted(low, b)) {
                     (Ok(head), Ok(tail)) if low - a > close && b - low > close => {
-                        before.push(head);
-                        after.push(tail);
+                        before.push(Piece { curve: head, edge: piece.edge });
+                        after.push(Piece { curve: tail, edge: piece.edge });
                     }
-                    _ if low - a <= close => after.push(curve),
-                    _ => before.push(curve),
+                    _ if low - a <= close => after.push(piece),
+                    _ => before.push(piece),
                 }
-            } else if crossed(start(&curve)) {
-                after.push(curve);
+            } else if crossed(piece.start()) {
+                after.push(piece);
             } else {
-                before.push(curve);
+                before.push(piece);
             }
         }
-        after.extend(before.iter().map(|c| shifted(c, unit(sign * period))));
+        after.extend(before.iter().map(|p| p.shifted(unit(sign * period))));
     }
     let target = if sign > 0.0 { seam } else { seam + period };
     let shift = ((target - level) / period).round() * period;
-    after.iter().map(|c| shifted(c, unit(shift))).collect()
+    after.iter().map(|p| p.shifted(unit(shift))).collect()
 }
 
-fn reversed(curves: &[NurbsCurve2]) -> Vec<NurbsCurve2> {
-    curves.iter().rev().map(NurbsCurve2::reversed).collect()
+fn reversed(pieces: &[Piece]) -> Vec<Piece> {
+    pieces.iter().rev().map(Piece::reversed).collect()
 }
 
 /// Joins two winding loops by lines along the seam.
@@ -140,33 +140,33 @@ fn join_two(
     seam: f64,
 ) -> RawLoop {
     let forward =
-        |l: RawLoop| if turns(&l.curves, axis, period) > 0.0 { l.curves } else { reversed(&l.curves) };
+        |l: RawLoop| if turns(&l.pieces, axis, period) > 0.0 { l.pieces } else { reversed(&l.pieces) };
     // On a torus the material may lie on the other side: left of the loop that runs forward.
     let swap = carrier.periods()[1 - axis].is_some()
-        && turns(&first.curves, axis, period) < 0.0
-        && turns(&second.curves, axis, period) > 0.0
+        && turns(&first.pieces, axis, period) < 0.0
+        && turns(&second.pieces, axis, period) > 0.0
         && axis == 0;
     let (low, mut high) =
         if swap { (forward(second), forward(first)) } else { (forward(first), forward(second)) };
     if swap && let Some(t) = carrier.periods()[1 - axis] {
         let by = if axis == 0 { DVec2::new(0.0, t) } else { DVec2::new(t, 0.0) };
-        high = high.iter().map(|c| shifted(c, by)).collect();
+        high = high.iter().map(|p| p.shifted(by)).collect();
     }
     let _ = seam;
-    let mut curves = low;
+    let mut pieces = low;
     let back = reversed(&high);
-    let (a, b) = (end(&curves[curves.len() - 1]), start(&back[0]));
-    curves.push(NurbsCurve2::line(a, b));
-    curves.extend(back);
-    let (a, b) = (end(&curves[curves.len() - 1]), start(&curves[0]));
-    curves.push(NurbsCurve2::line(a, b));
-    RawLoop { role: LoopRole::Outer, curves }
+    let (a, b) = (pieces[pieces.len() - 1].end(), back[0].start());
+    pieces.push(Piece::line(a, b));
+    pieces.extend(back);
+    let (a, b) = (pieces[pieces.len() - 1].end(), pieces[0].start());
+    pieces.push(Piece::line(a, b));
+    RawLoop { role: LoopRole::Outer, pieces }
 }
 
 /// Joins one winding loop with the edge of the surface on its left, or the only one there is.
 fn join_edge(carrier: &Carrier, l: &RawLoop, axis: usize, period: f64, _seam: f64) -> Option<RawLoop> {
     let (low, high) = edges(carrier, axis);
-    let forward = turns(&l.curves, axis, period) > 0.0;
+    let forward = turns(&l.pieces, axis, period) > 0.0;
     // Left of +u is +v; left of +v is -u.
     let upper = forward == (axis == 0);
     let edge = match (low, high, upper) {
@@ -174,13 +174,13 @@ fn join_edge(carrier: &Carrier, l: &RawLoop, axis: usize, period: f64, _seam: f6
         (Some(low), _, _) => low,
         (None, None, _) => return None,
     };
-    let (a, b) = (start(&l.curves[0]), end(&l.curves[l.curves.len() - 1]));
+    let (a, b) = (l.pieces[0].start(), l.pieces[l.pieces.len() - 1].end());
     let at = |p: DVec2| if axis == 0 { DVec2::new(p.x, edge) } else { DVec2::new(edge, p.y) };
-    let mut curves = l.curves.clone();
-    curves.push(NurbsCurve2::line(b, at(b)));
-    curves.push(NurbsCurve2::line(at(b), at(a)));
-    curves.push(NurbsCurve2::line(at(a), a));
-    Some(RawLoop { role: LoopRole::Outer, curves })
+    let mut pieces = l.pieces.clone();
+    pieces.push(Piece::line(b, at(b)));
+    pieces.push(Piece::line(at(b), at(a)));
+    pieces.push(Piece::line(at(a), a));
+    Some(RawLoop { role: LoopRole::Outer, pieces })
 }
 
 /// Where the surface ends across `axis`: poles, or the ends of a spline.
@@ -206,7 +206,7 @@ fn gather(carrier: &Carrier, loops: &mut [RawLoop]) {
     let periods = carrier.periods();
     let mut home: Option<(DVec2, DVec2)> = None;
     for l in loops.iter_mut() {
-        let Some((min, max)) = bounds(&l.curves) else { continue };
+        let Some((min, max)) = bounds(l.curves()) else { continue };
         let mut shift = DVec2::ZERO;
         for axis in 0..2 {
             let Some(period) = periods[axis] else { continue };
@@ -221,7 +221,7 @@ fn gather(carrier: &Carrier, loops: &mut [RawLoop]) {
             };
         }
         if shift != DVec2::ZERO {
-            l.curves = l.curves.iter().map(|c| shifted(c, shift)).collect();
+            l.pieces = l.pieces.iter().map(|p| p.shifted(shift)).collect();
         }
         home.get_or_insert((min + shift, max + shift));
     }

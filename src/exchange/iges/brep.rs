@@ -74,6 +74,7 @@ fn read508(
             if !forward {
                 segment.reverse_space();
             }
+            segment.edge = reader.edge(list, place);
             segments.push(segment);
         }
         if segments.iter().all(|s| s.space.is_empty()) {

@@ -9,6 +9,7 @@ use super::store::{Reader, Store};
 use super::structure::{self, Root};
 use super::trimmed144::{Trimmed, own_boundary, read143, read144};
 use super::{Progress, appearance, brep, surface};
+use crate::exchange::boundary::RawLoop;
 use crate::exchange::boundary::finish::finish;
 use crate::exchange::boundary::winding;
 use crate::exchange::report::{ImportReport, Remark, Severity};
@@ -57,6 +58,7 @@ pub(crate) fn read(
 
 fn one(store: &Store<'_>, root: &Root) -> (Option<FaceRecord>, Vec<Remark>) {
     let mut reader = Reader::new(store);
+    reader.instance = root.instance;
     let face = match face(&mut reader, root) {
         Ok(face) => Some(face),
         Err(error) => {
@@ -119,11 +121,11 @@ fn face(reader: &mut Reader<'_, '_>, root: &Root) -> Result<FaceRecord, EntityEr
     })
 }
 
-fn size(carrier: &Carrier, loops: &[crate::exchange::boundary::RawLoop]) -> f64 {
+fn size(carrier: &Carrier, loops: &[RawLoop]) -> f64 {
     match carrier {
         Carrier::Spline(spline) => spline.surface().bounds().diagonal(),
         Carrier::Analytic(surface) => {
-            let ends = loops.iter().flat_map(|l| &l.curves).map(|c| surface.jet(c.point(c.domain().0))[0]);
+            let ends = loops.iter().flat_map(RawLoop::curves).map(|c| surface.jet(c.point(c.domain().0))[0]);
             Bounds::of(ends).diagonal()
         }
     }

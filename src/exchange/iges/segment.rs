@@ -9,12 +9,12 @@ use super::curve::{self, Space};
 use super::error::EntityError;
 use super::store::Reader;
 use super::surface::Surface;
-use crate::exchange::boundary::{RawLoop, assembly, end, start};
+use crate::exchange::boundary::{Piece, RawLoop, assembly, end, start};
 use crate::exchange::report::Severity;
 use crate::kernel::nurbs::{NurbsCurve2, NurbsCurve3};
 use crate::kernel::query::{Carrier, project};
 use crate::kernel::view::Bounds;
-use crate::scene::records::LoopRole;
+use crate::scene::records::{EdgeId, LoopRole};
 
 /// Parts of a boundary's size that pcurves and space curves may differ by and still be the same curve.
 const AGREE: f64 = 2e-3;
@@ -32,6 +32,8 @@ pub(crate) struct Segment {
     pub space: Vec<NurbsCurve3>,
     /// Whether the file prefers the space curves.
     pub prefers_space: bool,
+    /// The edge of the model that this stretch is, where the file says so.
+    pub edge: Option<EdgeId>,
 }
 
 impl Segment {
@@ -99,10 +101,12 @@ pub(crate) fn boundary(
     role: LoopRole,
 ) -> Result<RawLoop, EntityError> {
     let carrier = &surface.carrier;
-    let mut pieces: Vec<NurbsCurve2> = Vec::new();
+    let mut pieces: Vec<Piece> = Vec::new();
     for segment in segments {
         match given(surface, segment) {
-            Some(mut curves) => pieces.append(&mut curves),
+            Some(curves) => {
+                pieces.extend(curves.into_iter().map(|curve| Piece { curve, edge: segment.edge }));
+            }
             None => {
                 if !segment.uv.is_empty() {
                     let surface_known = !surface.native_from_iges.is_empty();
@@ -124,11 +128,11 @@ pub(crate) fn boundary(
     if pieces.is_empty() {
         return Err(EntityError::Degenerate("the boundary has no curves".into()));
     }
-    let curves = assembly::chain(carrier, pieces);
-    if !curves.iter().flat_map(|c| [start(c), end(c)]).all(|p| reasonable(carrier, p)) {
+    let pieces = assembly::chain(carrier, pieces);
+    if !pieces.iter().flat_map(|p| [p.start(), p.end()]).all(|p| reasonable(carrier, p)) {
         return Err(EntityError::Degenerate("the boundary leaves the surface".into()));
     }
-    Ok(RawLoop { role, curves })
+    Ok(RawLoop { role, pieces })
 }
 
 /// The file's pcurves in native parameters, when they agree with the space curves.
@@ -223,7 +227,7 @@ fn lay(
     index: usize,
     carrier: &Carrier,
     segment: &Segment,
-    pieces: &mut Vec<NurbsCurve2>,
+    pieces: &mut Vec<Piece>,
 ) -> Result<(), EntityError> {
     let size = segment.size(carrier);
     let tolerance = (FIT * size).max(f64::MIN_POSITIVE);
@@ -231,7 +235,7 @@ fn lay(
     for curve in &segment.space {
         // The last end is a hint only when this curve follows it; at a pole it says nothing about u.
         let at = curve.point(curve.domain().0);
-        let near = pieces.last().map(end).filter(|uv| {
+        let near = pieces.last().map(Piece::end).filter(|uv| {
             (carrier.point(*uv) - at).length() <= 1e-4 * size && carrier.is_singular(*uv) == [false, false]
         });
         let projection = project(carrier, curve, near, tolerance)
@@ -240,7 +244,7 @@ fn lay(
         // A curve that shrinks to one point (at a pole, say) bounds nothing.
         let points = projection.curve.points();
         if points.iter().any(|p| *p != points[0]) {
-            pieces.push(projection.curve);
+            pieces.push(Piece { curve: projection.curve, edge: segment.edge });
         }
     }
     if off > 1e-3 * size {

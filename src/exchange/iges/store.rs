@@ -12,6 +12,7 @@ use super::global::Global;
 use super::parameter::{Args, Field, fields};
 use super::physical::Physical;
 use crate::exchange::report::{Remark, Severity};
+use crate::scene::records::EdgeId;
 
 /// Nested references followed for one face before giving up; far above any real face.
 const BUDGET: usize = 200_000;
@@ -32,6 +33,8 @@ pub(crate) struct Store<'a> {
     by_back_pointer: OnceLock<BTreeMap<i64, usize>>,
     /// Curves of the edge lists (504) met so far: a list is read once, not once for each edge.
     edge_lists: Mutex<BTreeMap<usize, Arc<[i64]>>>,
+    /// Number of the first edge of each edge list, and of all edges together.
+    edge_numbers: OnceLock<(BTreeMap<usize, u32>, u32)>,
 }
 
 impl<'a> Store<'a> {
@@ -43,7 +46,14 @@ impl<'a> Store<'a> {
         let file = Physical::split(bytes)?;
         let global = Global::read(&file);
         let entries = directory::read(&file);
-        Ok(Self { file, global, entries, by_back_pointer: OnceLock::new(), edge_lists: Mutex::default() })
+        Ok(Self {
+            file,
+            global,
+            entries,
+            by_back_pointer: OnceLock::new(),
+            edge_lists: Mutex::default(),
+            edge_numbers: OnceLock::new(),
+        })
     }
 
     /// Whether the terminate section was there, and the number of lines.
@@ -148,6 +158,20 @@ impl<'a> Store<'a> {
         Ok(list)
     }
 
+    /// Numbers for all edges of the file, list by list.
+    fn edge_numbers(&self) -> &(BTreeMap<usize, u32>, u32) {
+        self.edge_numbers.get_or_init(|| {
+            let mut firsts = BTreeMap::new();
+            let mut next = 0_u32;
+            for (index, _) in self.entries.iter().enumerate().filter(|(_, e)| e.kind == 504) {
+                let count = self.args(index).and_then(|mut a| a.count("number of edges", 5)).unwrap_or(0);
+                firsts.insert(index, next);
+                next = next.saturating_add(u32::try_from(count).unwrap_or(u32::MAX));
+            }
+            (firsts, next)
+        })
+    }
+
     /// The directory entry that a parameter line says it belongs to (columns 66 to 72).
     fn back_pointer(&self, line: usize) -> Option<i64> {
         let text = self.file.text(self.file.parameters[line], 72);
@@ -174,6 +198,8 @@ pub(crate) struct Reader<'s, 'a> {
     pub store: &'s Store<'a>,
     stack: Vec<usize>,
     budget: usize,
+    /// Which instance of its face is read: each has edges of its own.
+    pub instance: u32,
     /// Remarks made so far.
     pub remarks: Vec<Remark>,
 }
@@ -192,7 +218,7 @@ pub(crate) struct Opened<'s> {
 impl<'s, 'a> Reader<'s, 'a> {
     /// A reader with nothing open.
     pub(crate) fn new(store: &'s Store<'a>) -> Self {
-        Self { store, stack: Vec::new(), budget: BUDGET, remarks: Vec::new() }
+        Self { store, stack: Vec::new(), budget: BUDGET, instance: 0, remarks: Vec::new() }
     }
 
     /// Forgets how much was followed so far, before another independent entity.
@@ -230,6 +256,15 @@ impl<'s, 'a> Reader<'s, 'a> {
             .map_err(|e| e.in_part(what, target));
         self.stack.pop();
         result
+    }
+
+    /// Edge number `place` (from 1) of the edge list that `list` means, as an edge of the model. `None`
+    /// beyond what numbers can hold.
+    pub(crate) fn edge(&self, list: i64, place: i64) -> Option<EdgeId> {
+        let (firsts, total) = self.store.edge_numbers();
+        let first = firsts.get(&self.store.index(list, "edge list").ok()?)?;
+        let within = u32::try_from(place).ok()?.checked_sub(1)?;
+        total.checked_mul(self.instance)?.checked_add(*first)?.checked_add(within).map(EdgeId)
     }
 
     /// Type of the entity that `pointer` means.

@@ -30,6 +30,8 @@ pub(crate) struct Root {
     pub part: Option<usize>,
     /// Whether its shell uses it back to front.
     pub reversed: bool,
+    /// How often the same entity stands in the model before this one.
+    pub instance: u32,
 }
 
 /// All faces in file order, and the parts that hold any.
@@ -120,7 +122,13 @@ pub(crate) fn read(store: &Store<'_>) -> Structure {
     for (index, entry) in store.entries.iter().enumerate() {
         let face = is_face(entry.kind) || (surface::is_surface(entry.kind) && !used.contains(&index));
         if face && !seen.contains(&index) && !defined.contains(&index) {
-            builder.roots.push(Root { index, place: DAffine3::IDENTITY, part: None, reversed: false });
+            builder.roots.push(Root {
+                index,
+                place: DAffine3::IDENTITY,
+                part: None,
+                reversed: false,
+                instance: 0,
+            });
         }
     }
     let Builder { mut parts, mut roots, full, .. } = builder;
@@ -135,6 +143,11 @@ pub(crate) fn read(store: &Store<'_>) -> Structure {
     }
     roots.retain(|r| is_face(store.entries[r.index].kind) || !used.contains(&r.index));
     roots.sort_by_key(|r| r.index);
+    for k in 1..roots.len() {
+        if roots[k].index == roots[k - 1].index {
+            roots[k].instance = roots[k - 1].instance + 1;
+        }
+    }
     drop_empty(&mut parts, &mut roots);
     Structure { roots, parts, remarks: reader.remarks }
 }
@@ -147,7 +160,7 @@ impl Builder<'_, '_, '_> {
             return;
         }
         if is_face(kind) || surface::is_surface(kind) {
-            self.roots.push(Root { index, place, part, reversed });
+            self.roots.push(Root { index, place, part, reversed, instance: 0 });
             return;
         }
         if !is_container(kind) || self.path.contains(&index) {
