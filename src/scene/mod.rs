@@ -5,6 +5,7 @@
 pub mod demo;
 pub mod document;
 pub mod edit;
+pub mod file;
 pub mod history;
 pub mod number;
 pub mod operation;

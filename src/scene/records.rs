@@ -47,22 +47,30 @@ pub struct PartRecord {
 
 /// One trimmed surface.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct FaceRecord {
     /// Name from the file, if it has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Where it came from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<SourceRecord>,
     /// Linear RGB in 0..=1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub colour: Option<[f32; 3]>,
     /// Layer (IGES level) number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layer: Option<i32>,
     /// Position of its part in [`ModelRecord::parts`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<usize>,
     /// The untrimmed surface; its parameters are the face's native (u, v).
     pub surface: NurbsSurface,
     /// Trim loops in native (u, v). None at all: the whole domain of the surface.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loops: Vec<LoopRecord>,
     /// Whether the face's normal is opposite to `du x dv`.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub reversed: bool,
 }
 

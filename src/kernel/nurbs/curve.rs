@@ -1,13 +1,12 @@
 //! Rational B-spline curves in the uv plane and in model space.
 
 use glam::{DVec2, DVec3};
-use serde::{Deserialize, Serialize};
 
 use super::{KnotVector, NurbsError, check_points};
 use crate::kernel::vector::Vector;
 
 /// A rational B-spline curve. Control points are not premultiplied by their weights.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct NurbsCurve<V> {
     knots: KnotVector,
     points: Vec<V>,

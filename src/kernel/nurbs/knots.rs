@@ -1,7 +1,5 @@
 //! Knot vectors. A [`KnotVector`] that exists is sorted, finite and has a non-empty domain.
 
-use serde::{Deserialize, Serialize};
-
 /// Highest degree accepted; far above anything CAD systems write, low enough to bound memory.
 pub const MAX_DEGREE: usize = 64;
 
@@ -69,30 +67,10 @@ pub enum KnotError {
 }
 
 /// A sorted, finite, flat knot vector (multiplicities written out) with its degree. Need not be clamped.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "KnotData", into = "KnotData")]
+#[derive(Debug, Clone, PartialEq)]
 pub struct KnotVector {
     degree: usize,
     knots: Vec<f64>,
-}
-
-#[derive(Serialize, Deserialize)]
-struct KnotData {
-    degree: usize,
-    knots: Vec<f64>,
-}
-
-impl TryFrom<KnotData> for KnotVector {
-    type Error = KnotError;
-    fn try_from(data: KnotData) -> Result<Self, KnotError> {
-        Self::new(data.degree, data.knots)
-    }
-}
-
-impl From<KnotVector> for KnotData {
-    fn from(knots: KnotVector) -> Self {
-        Self { degree: knots.degree, knots: knots.knots }
-    }
 }
 
 impl KnotVector {

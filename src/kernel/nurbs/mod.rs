@@ -8,6 +8,7 @@ pub mod editing;
 pub mod elevation;
 pub mod knots;
 pub mod refinement;
+mod serial;
 pub mod shape;
 mod spline_map;
 pub mod surface;

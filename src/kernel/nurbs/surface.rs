@@ -1,14 +1,13 @@
 //! Rational tensor-product B-spline surfaces.
 
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 use super::{KnotVector, NurbsError, check_points};
 use crate::kernel::bezier::Tangents;
 
 /// A rational B-spline surface. Control point `(i, j)` (i along u, j along v) is number
 /// `i * count_v + j`; points are not premultiplied by their weights.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct NurbsSurface {
     knots_u: KnotVector,
     knots_v: KnotVector,

@@ -6,6 +6,7 @@ use crate::kernel::nurbs::NurbsCurve2;
 
 /// What a loop is said to be by its file. Not trusted for drawing: nesting decides.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum LoopRole {
     /// Bounds the face from outside.
     Outer,
@@ -24,8 +25,10 @@ pub struct EdgeId(pub u32);
 
 /// One closed trim loop: curves end to start, in order, each running in the loop's direction.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LoopRecord {
     /// What the file says it is.
+    #[serde(default)]
     pub role: LoopRole,
     /// Pcurves in native (u, v).
     pub curves: Vec<NurbsCurve2>,
