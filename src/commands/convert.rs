@@ -4,17 +4,22 @@ use std::path::Path;
 
 use super::arguments::ConvertArguments;
 use super::failure::Failure;
-use super::output::{check_writable, write_whole};
+use super::output::{check_writable, unwritten, write_whole};
 use super::progress::Progress;
 use super::source;
 use crate::exchange::iges::write::{self, ExportRemark, WriteOptions};
 use crate::exchange::report::Severity;
+use crate::scene::SceneRecord;
+use crate::scene::file::{self, SaveError, SaveOptions};
 use crate::scene::records::ModelRecord;
 
 /// A format that can be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Format {
+pub(super) enum Format {
+    /// An IGES file.
     Iges,
+    /// A scene file.
+    Scene,
 }
 
 /// Reads, converts, and writes whole or not at all.
@@ -32,7 +37,7 @@ pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
     source::check(input)?;
     check_writable(output)?;
     let progress = Progress::start(format!("reading {}", input.display()));
-    let opened = source::open(input, &|part| progress.set(part))?;
+    let opened = source::open_scene(input, &|part| progress.set(part))?;
     drop(progress);
     if let Some(line) = source::remarks_line(input, &opened.report) {
         eprintln!("hairline: {line}");
@@ -42,12 +47,25 @@ pub fn run(arguments: &ConvertArguments) -> Result<(), Failure> {
         Format::Iges => {
             let file_name = output.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
             let options = WriteOptions { unit: arguments.unit, file_name, ..WriteOptions::default() };
-            iges(&opened.model, output, &options)
+            iges(&opened.scene.into_model(), output, &options)
         }
+        Format::Scene => scene(&opened.scene, output),
     }
 }
 
-fn iges(model: &ModelRecord, output: &Path, options: &WriteOptions) -> Result<(), Failure> {
+/// Saves a scene file.
+///
+/// # Errors
+/// It cannot be written; the old file is then untouched.
+pub(super) fn scene(scene: &SceneRecord, output: &Path) -> Result<(), Failure> {
+    match file::save(output, scene, &SaveOptions::default()) {
+        Ok(_) => Ok(()),
+        Err(SaveError::Io(error)) => Err(unwritten(output, &error)),
+        Err(error) => Err(Failure::Output { path: output.into(), reason: error.to_string() }),
+    }
+}
+
+pub(super) fn iges(model: &ModelRecord, output: &Path, options: &WriteOptions) -> Result<(), Failure> {
     let (bytes, remarks) = write::write(model, options)
         .map_err(|e| Failure::Work { reason: format!("nothing was written to {}: {e}", output.display()) })?;
     write_whole(output, &bytes)?;
@@ -58,14 +76,17 @@ fn iges(model: &ModelRecord, output: &Path, options: &WriteOptions) -> Result<()
 }
 
 /// The format that the extension of `path` asks for.
-fn format_of(path: &Path) -> Result<Format, Failure> {
+pub(super) fn format_of(path: &Path) -> Result<Format, Failure> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("igs" | "iges") => Ok(Format::Iges),
+        Some(file::EXTENSION) => Ok(Format::Scene),
         other => {
             let what = other.map_or("it has no extension".into(), |e| format!("`.{e}` is not known"));
-            let reason =
-                format!("{}: {what}; the extension says what to write: .igs or .iges (IGES)", path.display());
+            let reason = format!(
+                "{}: {what}; the extension says what to write: .hairline (scene), .igs or .iges (IGES)",
+                path.display()
+            );
             Err(Failure::Usage { reason })
         }
     }

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use super::failure::{Failure, plain};
 use crate::exchange::iges;
 use crate::exchange::report::{ImportReport, Severity};
-use crate::scene::demo;
 use crate::scene::records::ModelRecord;
+use crate::scene::{SceneRecord, demo, file};
 
 /// A model with the report of its import.
 #[derive(Debug, Clone)]
@@ -19,20 +19,43 @@ pub struct Opened {
     pub report: ImportReport,
 }
 
+/// A scene with the report of its import.
+#[derive(Debug, Clone)]
+pub struct OpenedScene {
+    /// The scene.
+    pub scene: SceneRecord,
+    /// What became of the entities of its file; empty for scene files.
+    pub report: ImportReport,
+}
+
 /// Reads the model at `path`; the path `demo` is the built-in scene. `progress` is told the part done, 0 to 1.
 ///
 /// # Errors
 /// The file is missing, unreadable, or no model in a format that is understood.
 pub fn open(path: &Path, progress: &dyn Fn(f64)) -> Result<Opened, Failure> {
+    let OpenedScene { scene, report } = open_scene(path, progress)?;
+    Ok(Opened { model: scene.into_model(), report })
+}
+
+/// Reads the scene at `path`, or the model there as a scene of its own. What a file is, its content says.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_scene(path: &Path, progress: &dyn Fn(f64)) -> Result<OpenedScene, Failure> {
     if path == Path::new("demo") {
         let report = ImportReport { origin: "built-in demo scene".into(), ..ImportReport::default() };
-        return Ok(Opened { model: demo::model(), report });
+        return Ok(OpenedScene { scene: SceneRecord::of_model(demo::model()), report });
     }
     check(path)?;
     let fail = |reason: String| Failure::Input { path: path.into(), reason };
     let bytes = fs::read(path).map_err(|e| fail(plain(&e)))?;
     if bytes.is_empty() {
         return Err(fail("the file is empty (0 bytes)".into()));
+    }
+    if file::is_scene(&bytes) {
+        let scene = file::from_bytes(&bytes).map_err(|e| fail(e.to_string()))?;
+        let origin = format!("Hairline scene, format {}", file::FORMAT);
+        return Ok(OpenedScene { scene, report: ImportReport { origin, ..ImportReport::default() } });
     }
     let mut told = |at: iges::Progress| {
         progress(at.done as f64 / at.total.max(1) as f64);
@@ -42,7 +65,7 @@ pub fn open(path: &Path, progress: &dyn Fn(f64)) -> Result<Opened, Failure> {
     if let Some(stem) = path.file_stem() {
         model.name = stem.to_string_lossy().into_owned();
     }
-    Ok(Opened { model, report })
+    Ok(OpenedScene { scene: SceneRecord::of_model(model), report })
 }
 
 /// Checks that there is a file at `path` without reading it; the path `demo` always passes.

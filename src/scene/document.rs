@@ -7,7 +7,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use super::edit::FaceId;
-use super::records::{FaceRecord, LoopRecord, ModelRecord, SourceRecord};
+use super::records::{FaceRecord, LoopRecord, ModelRecord, PartRecord, SourceRecord};
 use super::settings::{DisplayRecord, ViewRecord};
 use crate::kernel::nurbs::NurbsSurface;
 use crate::kernel::trim::{Periods, UvRect};
@@ -87,6 +87,45 @@ impl SceneRecord {
         Self { models: vec![model], ..Self::default() }
     }
 
+    /// All models as one, faces and parts in order: what a format of single models can hold. Lengths are in
+    /// the unit of the first model; the parts of each go under one of its name.
+    pub fn into_model(mut self) -> ModelRecord {
+        if self.models.len() == 1 {
+            return self.models.remove(0);
+        }
+        let mut models = self.models.into_iter().peekable();
+        let Some(first) = models.peek() else { return ModelRecord::default() };
+        let unit = first.unit.clone();
+        let mut all = ModelRecord { name: first.name.clone(), unit, ..ModelRecord::default() };
+        let mut edges = 0;
+        for model in models {
+            let root = all.parts.len();
+            all.parts.push(PartRecord { name: model.name, parent: None });
+            all.parts.extend(
+                model.parts.into_iter().map(|part| PartRecord {
+                    parent: Some(part.parent.map_or(root, |p| root + 1 + p)),
+                    ..part
+                }),
+            );
+            let scale = model.unit.millimetres / all.unit.millimetres;
+            let mut next_edges = edges;
+            for mut face in model.faces {
+                face.part = Some(face.part.map_or(root, |p| root + 1 + p));
+                if scale != 1.0 {
+                    face.surface = face.surface.map_points(|p| p * scale);
+                }
+                // Edges count from 0 in each model.
+                for edge in face.loops.iter_mut().flat_map(|l| l.edges.iter_mut().flatten()) {
+                    edge.0 += edges;
+                    next_edges = next_edges.max(edge.0 + 1);
+                }
+                all.faces.push(face);
+            }
+            edges = next_edges;
+        }
+        all
+    }
+
     /// The face counted from 0 through all models.
     pub fn nth_face(&self, number: usize) -> Option<FaceId> {
         FaceId { model: 0, face: number }.resolved(self)
@@ -148,5 +187,30 @@ impl<'a> FaceView<'a> {
     /// Period of the surface in u and v, 0 where it is not closed. Not free: it samples the border.
     pub fn periods(&self) -> DVec2 {
         Periods::of_surface(self.surface).period
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn models_merge_with_their_parts_and_units() {
+        let one = super::super::demo::model();
+        let mut two = one.clone();
+        (two.unit.name, two.unit.millimetres) = ("m".into(), 1000.0);
+        let count = one.faces.len();
+        let scene = SceneRecord { models: vec![one.clone(), two], ..SceneRecord::default() };
+        assert_eq!(scene.nth_face(count + 2), Some(FaceId { model: 1, face: 2 }));
+        assert_eq!(scene.nth_face(2 * count), None);
+        let all = scene.into_model();
+        assert_eq!((all.faces.len(), all.parts.len()), (2 * count, 2 * one.parts.len() + 2));
+        let name = |face: &FaceRecord| all.parts[face.part.expect("a part")].name.clone();
+        for k in 0..count {
+            assert_eq!(name(&all.faces[k]), name(&all.faces[count + k]));
+            let (a, b) = (&all.faces[k].surface, &all.faces[count + k].surface);
+            assert_eq!(a.points()[0] * 1000.0, b.points()[0]);
+        }
+        assert_eq!(SceneRecord::of_model(one.clone()).into_model(), one);
     }
 }
