@@ -14,6 +14,7 @@
 pub mod camera;
 pub mod derive;
 pub mod diagnostics;
+pub mod document;
 pub mod editing;
 pub mod elements;
 pub mod files;
@@ -82,13 +83,13 @@ impl Plugin for EditorPlugin {
             settings::SettingsPlugin,
             tools::ToolsPlugin,
             files::FilesPlugin,
+            document::DocumentPlugin,
             camera::CameraPlugin,
             picking::PickingPlugin { windowed: self.windowed },
             redraw::RedrawPlugin,
         ))
         .init_resource::<panels::Notices>()
-        .init_resource::<diagnostics::RenderFigures>()
-        .add_systems(Update, quit.in_set(EditorSystems::Tools));
+        .init_resource::<diagnostics::RenderFigures>();
         if self.windowed {
             app.add_plugins((
                 EguiPlugin::default(),
@@ -97,12 +98,5 @@ impl Plugin for EditorPlugin {
                 diagnostics::DiagnosticsPlugin,
             ));
         }
-    }
-}
-
-/// Serves `Quit`.
-fn quit(mut requests: MessageReader<tools::CommandRequest>, mut exit: MessageWriter<AppExit>) {
-    if requests.read().any(|r| r.0 == tools::Action::Quit) {
-        exit.write(AppExit::Success);
     }
 }

@@ -5,9 +5,8 @@
 //! modifier keys anew every frame and egui repaints on every event, so unchanged reports are dropped:
 //! without that an idle window draws for ever.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
 
 use bevy::prelude::*;
 use bevy::window::RequestRedraw;
@@ -20,8 +19,8 @@ use super::tools::CommandRequest;
 #[derive(Resource, Clone, Default)]
 pub struct Waker {
     proxy: Option<bevy::winit::EventLoopProxy<WinitUserEvent>>,
-    /// Whether a timer is running: one at a time is enough, who is woken too early asks again.
-    timer: Arc<AtomicBool>,
+    /// When the earliest timer ends: later ones are not started, who is woken too early asks again.
+    timer: Arc<Mutex<Option<Instant>>>,
 }
 
 impl Waker {
@@ -35,17 +34,23 @@ impl Waker {
 
     /// Causes a frame when `time` has passed, or earlier.
     pub fn wake_after(&self, time: Duration) {
-        if self.proxy.is_none() || self.timer.swap(true, Ordering::AcqRel) {
+        let end = Instant::now() + time;
+        let set = |waker: &Self, value| *waker.timer.lock().unwrap_or_else(|e| e.into_inner()) = value;
+        let running = *self.timer.lock().unwrap_or_else(|e| e.into_inner());
+        if self.proxy.is_none() || running.is_some_and(|running| running <= end) {
             return;
         }
+        set(self, Some(end));
         let waker = self.clone();
         let timer = std::thread::Builder::new().name("hairline-timer".into()).spawn(move || {
             std::thread::sleep(time);
-            waker.timer.store(false, Ordering::Release);
+            let mut timer = waker.timer.lock().unwrap_or_else(|e| e.into_inner());
+            *timer = timer.filter(|running| *running != end);
+            drop(timer);
             waker.wake();
         });
         if timer.is_err() {
-            self.timer.store(false, Ordering::Release);
+            set(self, None);
             self.wake();
         }
     }

@@ -28,6 +28,17 @@ pub enum DisplayMode {
 impl DisplayMode {
     /// All modes in the order of menu and toolbar.
     pub const ALL: [Self; 5] = [Self::Shaded, Self::Faces, Self::Uv, Self::Heat, Self::Untrimmed];
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shaded => "shaded",
+            Self::Faces => "faces",
+            Self::Uv => "uv",
+            Self::Heat => "heat",
+            Self::Untrimmed => "untrimmed",
+        }
+    }
 }
 
 /// The user's choices.
@@ -51,6 +62,12 @@ pub struct Settings {
     pub properties: bool,
     /// Whether the import report is shown.
     pub report: bool,
+    /// Whether the history is shown.
+    pub history: bool,
+    /// Whether the list of problems is shown.
+    pub problems: bool,
+    /// Seconds after a change after which a copy is kept to recover from; 0 keeps none.
+    pub autosave_s: u32,
     /// Files opened lately, latest first.
     pub recent: Vec<PathBuf>,
 }
@@ -66,6 +83,9 @@ impl Default for Settings {
             tree: true,
             properties: true,
             report: false,
+            history: false,
+            problems: false,
+            autosave_s: 20,
             recent: Vec::new(),
         }
     }
@@ -94,6 +114,8 @@ fn switch(mut requests: MessageReader<CommandRequest>, mut settings: ResMut<Sett
             Action::ToggleTree => &mut settings.tree,
             Action::ToggleProperties => &mut settings.properties,
             Action::ToggleReport => &mut settings.report,
+            Action::ToggleHistory => &mut settings.history,
+            Action::ToggleProblems => &mut settings.problems,
             Action::Find => {
                 settings.tree = true;
                 continue;

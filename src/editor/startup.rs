@@ -6,9 +6,10 @@ use bevy::prelude::*;
 use bevy::render::RenderPlugin;
 use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
 use bevy::render::settings::{Backends, RenderCreation, WgpuSettings};
-use bevy::window::{PresentMode, WindowResolution};
+use bevy::window::{ExitCondition, PresentMode, WindowResolution};
 
 use super::EditorPlugin;
+use super::document::Recovery;
 use super::files::{OpenFiles, SettingsStore, Source};
 
 /// How the editor is started.
@@ -56,7 +57,13 @@ pub fn run(options: EditorOptions) -> Result<(), StartError> {
     check_vulkan()?;
     // Frames cost most on software drivers, which gain nothing from a main world that runs ahead.
     let plugins = DefaultPlugins
-        .set(WindowPlugin { primary_window: Some(window()), ..default() })
+        .set(WindowPlugin {
+            primary_window: Some(window()),
+            // Unsaved work is asked about first.
+            close_when_requested: false,
+            exit_condition: ExitCondition::DontExit,
+            ..default()
+        })
         .set(RenderPlugin {
             render_creation: RenderCreation::Automatic(Box::new(WgpuSettings {
                 backends: Some(Backends::VULKAN),
@@ -74,6 +81,7 @@ pub fn run(options: EditorOptions) -> Result<(), StartError> {
     let mut app = App::new();
     app.add_plugins(plugins)
         .insert_resource(SettingsStore::of_user())
+        .insert_resource(Recovery::of_user())
         .add_plugins(EditorPlugin { windowed: true });
     let source = |path: &PathBuf| match path == Path::new("demo") {
         true => Source::Demo,

@@ -118,6 +118,11 @@ impl History {
         self.saved = Some(self.state);
     }
 
+    /// Notes that the state of this number has been saved, the present one or not: saving takes a while.
+    pub fn mark_saved_at(&mut self, state: u64) {
+        self.saved = Some(state);
+    }
+
     /// Notes that no state of this history is on disk (a recovered or imported document).
     pub fn mark_unsaved(&mut self) {
         self.saved = None;
@@ -132,6 +137,12 @@ impl History {
     /// was taken back.
     pub fn state(&self) -> u64 {
         self.state
+    }
+
+    /// Whether the state before the oldest step is the saved one.
+    pub fn start_is_saved(&self) -> bool {
+        let start = self.done.front().or(self.undone.last()).map_or(self.state, |step| step.from);
+        self.saved == Some(start)
     }
 
     /// Label of the step that undo would take back.

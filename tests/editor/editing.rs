@@ -15,7 +15,7 @@ use hairline::scene::records::ModelRecord;
 use crate::world::{command, demo_app};
 use hairline::editor::tools::Action;
 
-fn send(app: &mut App, requests: impl IntoIterator<Item = EditRequest>) {
+pub fn send(app: &mut App, requests: impl IntoIterator<Item = EditRequest>) {
     for request in requests {
         app.world_mut().write_message(request);
     }
@@ -23,7 +23,7 @@ fn send(app: &mut App, requests: impl IntoIterator<Item = EditRequest>) {
 }
 
 /// The records of everything open.
-fn records(app: &mut App) -> Vec<ModelRecord> {
+pub fn records(app: &mut App) -> Vec<ModelRecord> {
     fn read(records: Records, scene: Res<Scene>) -> Vec<ModelRecord> {
         scene.models.iter().map(|m| records.model(m).expect("a model")).collect()
     }
@@ -35,7 +35,7 @@ fn steps(app: &App) -> usize {
 }
 
 /// A face with a hole, by its address.
-fn holed(app: &mut App) -> FaceId {
+pub fn holed(app: &mut App) -> FaceId {
     let models = records(app);
     let face = models[0].faces.iter().position(|f| f.loops.len() > 1).expect("a face with a hole");
     FaceId { model: 0, face }

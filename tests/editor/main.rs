@@ -2,6 +2,8 @@
 
 mod camera;
 mod commands;
+mod document;
+mod edit_commands;
 mod editing;
 mod input;
 #[cfg(target_os = "linux")]

@@ -9,7 +9,8 @@ use bevy::window::{FileDragAndDrop, RequestRedraw};
 use hairline::editor::EditorPlugin;
 use hairline::editor::camera::{CameraRequest, ViewCamera, motion};
 use hairline::editor::derive::SceneBounds;
-use hairline::editor::files::{LoadError, Loading, OpenFiles, Source, read_model};
+use hairline::editor::document::{Answer, Recovery};
+use hairline::editor::files::{LoadError, Loading, OpenFiles, Source, read_source};
 use hairline::editor::object::{AuthoredFace, DerivedFace, FacePlace, Model, Scene, Shown, TrimLoop};
 use hairline::editor::panels::Notices;
 use hairline::editor::selection::{SelectMode, SelectRequest, Selection};
@@ -18,17 +19,23 @@ use hairline::editor::tools::{Action, CommandRequest};
 use hairline::exchange::report::Severity;
 use hairline::kernel::view::{Projection, StandardView};
 
-fn app() -> App {
+pub fn app() -> App {
+    app_with(Recovery::default())
+}
+
+/// With copies to recover from.
+pub fn app_with(recovery: Recovery) -> App {
     let mut app = App::new();
     app.add_plugins((MinimalPlugins, InputPlugin))
         .add_message::<FileDragAndDrop>()
         .add_message::<RequestRedraw>()
+        .insert_resource(recovery)
         .add_plugins(EditorPlugin { windowed: false });
     app
 }
 
 /// Updates until nothing is being read any more.
-fn finish_loading(app: &mut App) {
+pub fn finish_loading(app: &mut App) {
     let started = Instant::now();
     app.update();
     while app.world().resource::<Loading>().is_active() {
@@ -41,6 +48,8 @@ fn finish_loading(app: &mut App) {
 
 fn open(app: &mut App, sources: Vec<Source>, replace: bool) {
     app.world_mut().write_message(OpenFiles { sources, replace });
+    app.update();
+    app.world_mut().write_message(Answer::Discard);
     finish_loading(app);
 }
 
@@ -190,8 +199,8 @@ fn a_bad_file_is_named_and_what_is_open_stays() {
 
 #[test]
 fn reading_stops_when_it_is_cancelled() {
-    let result = read_model(&Source::Demo, &|_, _| false);
-    assert!(matches!(result, Err(LoadError::Cancelled)), "{:?}", result.map(|m| m.record.name));
+    let result = read_source(&Source::Demo, &|_, _| false);
+    assert!(matches!(result, Err(LoadError::Cancelled)), "{:?}", result.map(|m| m.models.len()));
 }
 
 #[test]

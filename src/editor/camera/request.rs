@@ -12,7 +12,7 @@ use crate::editor::selection::Selection;
 use crate::editor::settings::Settings;
 use crate::editor::tools::{Action, CommandRequest};
 use crate::editor::viewport::Viewport;
-use crate::kernel::view::{Bounds, Projection, StandardView};
+use crate::kernel::view::{Bounds, Camera as ViewPoint, Projection, StandardView};
 
 /// Asks for another view.
 #[derive(Message, Debug, Clone, Copy, PartialEq)]
@@ -32,6 +32,8 @@ pub enum CameraRequest {
         /// Up on the screen.
         up: DVec3,
     },
+    /// This view, at once.
+    Go(ViewPoint),
     /// Perspective to parallel and back.
     ToggleProjection,
 }
@@ -98,6 +100,11 @@ pub(super) fn serve(
                 fit(&all(), direction, up)
             }
             CameraRequest::Look { direction, up } => motion::look_along(&from, *direction, *up),
+            CameraRequest::Go(view) => {
+                settings.perspective = matches!(view.projection, Projection::Perspective { .. });
+                *camera = ViewCamera { now: *view, flight: None };
+                continue;
+            }
             CameraRequest::ToggleProjection => {
                 let toggled = motion::toggle_projection(&from, 0.5 * bounds.scale());
                 settings.perspective = matches!(toggled.projection, Projection::Perspective { .. });

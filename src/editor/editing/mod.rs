@@ -7,15 +7,20 @@
 //! Invariant: outside of a drag the components are what the edits of the history led to.
 
 mod apply;
+mod commands;
 mod document;
+mod prompt;
 mod session;
 mod structure;
+mod values;
 
 use bevy::prelude::*;
 
 pub use apply::apply_edit;
+pub use commands::{Clipboard, RunEdit, Target, curves_meant, operations};
 pub use document::OpenDocument;
-pub use session::{ApplyRequests, Editing};
+pub use prompt::Prompt;
+pub use session::{ApplyRequests, Editing, SavePoint};
 
 use super::EditorSystems;
 use crate::scene::operation::Operation;
@@ -51,7 +56,15 @@ impl Plugin for EditingPlugin {
     fn build(&self, app: &mut App) {
         app.add_message::<EditRequest>()
             .init_resource::<Editing>()
-            .add_systems(Update, session::command_requests.in_set(EditorSystems::Tools))
+            .add_message::<RunEdit>()
+            .init_resource::<Prompt>()
+            .init_resource::<Clipboard>()
+            .add_systems(
+                Update,
+                (session::command_requests, commands::command_requests, commands::run)
+                    .chain()
+                    .in_set(EditorSystems::Tools),
+            )
             .add_systems(Update, session::serve.in_set(ApplyRequests).in_set(EditorSystems::ApplyEdits));
     }
 }

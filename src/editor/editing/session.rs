@@ -22,12 +22,21 @@ pub struct ApplyRequests;
 pub struct Editing {
     history: History,
     drag: Option<Drag>,
-    /// Whether something happened to the document that is no step: a file was added to it.
-    touched: bool,
+    /// Counts what happened to the document that is no step: a file was added to it, it was recovered.
+    touches: u64,
+    /// The count that is on disk.
+    saved_touches: u64,
     /// Why the last preview was refused, while it is the latest.
     refused: Option<String>,
     /// Counts changes of the document, previews included.
     revision: u64,
+}
+
+/// A state of the document.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SavePoint {
+    state: u64,
+    touches: u64,
 }
 
 /// A drag: what the last preview did to the document as it was at the beginning.
@@ -54,19 +63,26 @@ impl Editing {
 
     /// Whether there is something that no file holds.
     pub fn is_unsaved(&self) -> bool {
-        self.touched || !self.history.is_saved() || self.drag.as_ref().is_some_and(|d| d.shown.is_some())
+        self.touches != self.saved_touches
+            || !self.history.is_saved()
+            || self.drag.as_ref().is_some_and(|d| d.shown.is_some())
     }
 
     /// Notes a change that is no step.
     pub fn touch(&mut self) {
-        self.touched = true;
+        self.touches += 1;
         self.revision += 1;
     }
 
-    /// Notes that the present state is on disk.
-    pub fn mark_saved(&mut self) {
-        self.history.mark_saved();
-        self.touched = false;
+    /// Names the present state, to say later that it was saved.
+    pub fn save_point(&self) -> SavePoint {
+        SavePoint { state: self.history.state(), touches: self.touches }
+    }
+
+    /// Notes that a state is on disk.
+    pub fn mark_saved(&mut self, point: SavePoint) {
+        self.history.mark_saved_at(point.state);
+        self.saved_touches = point.touches;
     }
 
     /// Starts over with a document that was just opened: without steps, saved.

@@ -7,29 +7,33 @@ use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, mpsc};
 
+use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 
-use super::{LoadError, OpenFiles, Source, read_model};
+use super::{LoadError, LoadedScene, OpenFiles, SceneFile, Source, read_source};
 use crate::editor::camera::CameraRequest;
+use crate::editor::document::{Discarding, DocumentFile, Proceed, Recovery, restore};
 use crate::editor::editing::Editing;
-use crate::editor::object::{LoadedModel, Scene, despawn_model, spawn_model};
+use crate::editor::object::{Scene, despawn_model, spawn_model};
 use crate::editor::panels::Notices;
 use crate::editor::redraw::Waker;
 use crate::editor::settings::Settings;
 use crate::editor::tools::{Action, CommandRequest};
+use crate::scene::file::Fingerprint;
 
 /// What is being read.
 #[derive(Resource, Default)]
 pub struct Loading {
-    queue: VecDeque<(Source, bool)>,
+    /// What to read, and the revision of the document that it replaces.
+    queue: VecDeque<(Source, Option<u64>)>,
     active: Option<Worker>,
 }
 
 struct Worker {
     name: String,
-    replace: bool,
+    replaces: Option<u64>,
     shared: Arc<Shared>,
-    result: Mutex<mpsc::Receiver<Result<LoadedModel, LoadError>>>,
+    result: Mutex<mpsc::Receiver<Result<LoadedScene, LoadError>>>,
 }
 
 #[derive(Default)]
@@ -74,52 +78,48 @@ impl Loading {
     }
 }
 
-/// Demo, cancel and close from the command table.
-pub(super) fn command_requests(
-    mut requests: MessageReader<CommandRequest>,
-    mut open: MessageWriter<OpenFiles>,
-    mut loading: ResMut<Loading>,
-    mut scene: ResMut<Scene>,
-    mut editing: ResMut<Editing>,
-    mut commands: Commands,
-) {
-    for CommandRequest(action) in requests.read() {
-        match action {
-            Action::OpenDemo => {
-                open.write(OpenFiles { sources: vec![Source::Demo], replace: true });
-            }
-            Action::Cancel => loading.cancel(),
-            Action::CloseAll => {
-                close_all(&mut commands, &mut scene);
-                editing.start_over();
-            }
-            _ => {}
-        }
+/// Cancel from the command table.
+pub(super) fn command_requests(mut requests: MessageReader<CommandRequest>, mut loading: ResMut<Loading>) {
+    if requests.read().any(|r| r.0 == Action::Cancel) {
+        loading.cancel();
     }
 }
 
-fn close_all(commands: &mut Commands, scene: &mut Scene) {
+/// Despawns everything open.
+pub fn close_all(commands: &mut Commands, scene: &mut Scene) {
     let open: Vec<Entity> = scene.models.iter().map(|m| m.entity).collect();
     for model in open {
         despawn_model(commands, scene, model);
     }
 }
 
-/// Queues requests and starts the worker when it is free.
-pub(super) fn start(mut requests: MessageReader<OpenFiles>, mut loading: ResMut<Loading>, waker: Res<Waker>) {
-    for request in requests.read() {
+/// Queues requests and starts the worker when it is free. What replaces the document comes by way of
+/// `document`, which knows whether anything would be lost.
+pub(super) fn start(
+    mut requests: MessageReader<OpenFiles>,
+    mut allowed: MessageReader<Proceed>,
+    mut loading: ResMut<Loading>,
+    editing: Res<Editing>,
+    waker: Res<Waker>,
+) {
+    let replacing = allowed.read().filter_map(|Proceed(what)| match what {
+        Discarding::Open(files) => Some(files),
+        _ => None,
+    });
+    for request in requests.read().filter(|r| !r.replace).chain(replacing) {
         let sources = request.sources.iter().cloned();
         // Only the first file of a request replaces; the others join it.
-        loading.queue.extend(sources.enumerate().map(|(i, s)| (s, request.replace && i == 0)));
+        let replaced = Some(editing.revision()).filter(|_| request.replace);
+        loading.queue.extend(sources.enumerate().map(|(i, s)| (s, replaced.filter(|_| i == 0))));
     }
     if loading.active.is_none()
-        && let Some((source, replace)) = loading.queue.pop_front()
+        && let Some((source, replaces)) = loading.queue.pop_front()
     {
-        loading.active = Some(spawn_worker(source, replace, waker.clone()));
+        loading.active = Some(spawn_worker(source, replaces, waker.clone()));
     }
 }
 
-fn spawn_worker(source: Source, replace: bool, waker: Waker) -> Worker {
+fn spawn_worker(source: Source, replaces: Option<u64>, waker: Waker) -> Worker {
     let shared = Arc::new(Shared::default());
     let (sender, receiver) = mpsc::channel();
     let name = match &source {
@@ -143,7 +143,7 @@ fn spawn_worker(source: Source, replace: bool, waker: Waker) -> Worker {
             }
             !shared.cancelled.load(Ordering::Relaxed)
         };
-        let read = std::panic::AssertUnwindSafe(|| read_model(&source, &progress));
+        let read = std::panic::AssertUnwindSafe(|| read_source(&source, &progress));
         // A defect in a reader must not take the window, and what is open in it, down.
         let result = std::panic::catch_unwind(read).unwrap_or_else(|_| {
             Err(LoadError::Read {
@@ -159,18 +159,15 @@ fn spawn_worker(source: Source, replace: bool, waker: Waker) -> Worker {
         let message = format!("cannot start a thread: {error}");
         let _ = for_failure.send(Err(LoadError::Read { path: name.clone().into(), message }));
     }
-    Worker { name, replace, shared, result: Mutex::new(receiver) }
+    Worker { name, replaces, shared, result: Mutex::new(receiver) }
 }
 
-/// Takes what the worker delivered: spawns the model or says what went wrong.
+/// Takes what the worker delivered: spawns the models or says what went wrong.
 pub(super) fn finish(
     mut loading: ResMut<Loading>,
-    mut scene: ResMut<Scene>,
     mut commands: Commands,
-    mut settings: ResMut<Settings>,
-    mut editing: ResMut<Editing>,
+    mut spawn: Spawn,
     mut notices: ResMut<Notices>,
-    mut camera: MessageWriter<CameraRequest>,
     waker: Res<Waker>,
 ) {
     let Some(worker) = &loading.active else { return };
@@ -180,26 +177,73 @@ pub(super) fn finish(
         Err(mpsc::TryRecvError::Empty) => return,
         Err(mpsc::TryRecvError::Disconnected) => Err(LoadError::Cancelled),
     };
-    let replace = worker.replace;
+    let replaces = worker.replaces;
     let name = worker.name.clone();
     loading.active = None;
     waker.wake();
     match result {
-        Ok(model) => {
-            if replace {
-                close_all(&mut commands, &mut scene);
-                editing.start_over();
-            } else {
-                editing.touch();
+        Ok(_) if replaces.is_some_and(|revision| revision != spawn.editing.revision()) => {
+            notices.error(format!("{name} was not opened: the scene was edited while it was being read"));
+        }
+        Ok(loaded) => {
+            for model in &loaded.models {
+                notices.imported(&name, &model.report);
             }
-            if let Some(path) = &model.path {
-                super::remember(&mut settings, path);
-            }
-            notices.imported(&name, &model.report);
-            spawn_model(&mut commands, &mut scene, model);
-            camera.write(CameraRequest::FitNew);
+            spawn.enter(&mut commands, loaded, replaces.is_some(), &mut notices);
         }
         Err(LoadError::Cancelled) => notices.info(format!("{name}: loading cancelled")),
         Err(error) => notices.error(error.to_string()),
+    }
+}
+
+/// What changes when a file is opened.
+#[derive(SystemParam)]
+pub(super) struct Spawn<'w> {
+    scene: ResMut<'w, Scene>,
+    settings: ResMut<'w, Settings>,
+    editing: ResMut<'w, Editing>,
+    file: ResMut<'w, DocumentFile>,
+    recovery: ResMut<'w, Recovery>,
+    camera: MessageWriter<'w, CameraRequest>,
+}
+
+impl Spawn<'_> {
+    fn enter(&mut self, commands: &mut Commands, loaded: LoadedScene, replace: bool, notices: &mut Notices) {
+        let path = loaded.models.iter().find_map(|m| m.path.clone());
+        let path = path.or(loaded.file.as_ref().map(|f| f.path.clone()));
+        if replace {
+            self.recovery.forget(&self.file);
+            close_all(commands, &mut self.scene);
+            self.editing.start_over();
+            self.file.start_over();
+        } else {
+            self.editing.touch();
+        }
+        for model in loaded.models {
+            spawn_model(commands, &mut self.scene, model);
+        }
+        let recovered = path.as_ref().and_then(|path| self.recovery.take_recovering(path));
+        match loaded.file.filter(|_| replace) {
+            Some(file) => {
+                let SceneFile { path, scene, fingerprint } = file;
+                let (settings, document) = (&mut self.settings, &mut self.file);
+                restore(&scene, &self.scene, commands, settings, document, &mut self.camera);
+                (self.file.path, self.file.fingerprint) = (Some(path), Some(fingerprint));
+            }
+            None => {
+                self.camera.write(CameraRequest::FitNew);
+            }
+        }
+        if let Some(copy) = recovered {
+            // It belongs to the file that it is a copy of, as that is now, and is not saved there.
+            let original = copy.note.path;
+            self.file.fingerprint = original.as_deref().and_then(|path| Fingerprint::of_file(path).ok());
+            self.file.path = original;
+            self.file.recovered = Some(copy.file);
+            self.editing.touch();
+            notices.info(format!("Recovered {}; it is not saved yet", copy.note.name));
+        } else if let Some(path) = path {
+            super::remember(&mut self.settings, &path);
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Opening files: dialog, drag and drop, recent files, command line; read in the background.
 //!
-//! Wiring: [`OpenFiles`] asks for files; `Tools` starts a worker thread per request and `ApplyEdits` takes
+//! Wiring: [`OpenFiles`] asks for files (`document` asks back where that loses work); `Tools` starts a worker thread per request and `ApplyEdits` takes
 //! what it delivers and spawns it (see `object`). Settings are read at start and written when they change.
 
 mod dialog;
@@ -13,9 +13,9 @@ use std::path::PathBuf;
 
 use bevy::prelude::*;
 
-pub use dialog::OpenDialog;
-pub use load::{LoadProgress, Loading};
-pub use reader::{LoadError, read_model};
+pub use dialog::{FileDialogs, Picked, Purpose};
+pub use load::{LoadProgress, Loading, close_all};
+pub use reader::{LoadError, LoadedScene, SceneFile, read_source};
 pub use store::{SettingsStore, remember};
 
 use super::EditorSystems;
@@ -38,6 +38,10 @@ pub struct OpenFiles {
     pub replace: bool,
 }
 
+/// The moment in `Tools` when files begin to be read.
+#[derive(SystemSet, Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct StartLoading;
+
 /// Adds files.
 pub struct FilesPlugin;
 
@@ -45,7 +49,7 @@ impl Plugin for FilesPlugin {
     fn build(&self, app: &mut App) {
         app.add_message::<OpenFiles>()
             .init_resource::<Loading>()
-            .init_resource::<OpenDialog>()
+            .init_resource::<FileDialogs>()
             .init_resource::<SettingsStore>()
             .add_systems(Startup, store::read)
             .add_systems(Update, drop::open_dropped.in_set(EditorSystems::Input))
@@ -53,6 +57,7 @@ impl Plugin for FilesPlugin {
                 Update,
                 (dialog::command_requests, load::command_requests, load::start)
                     .chain()
+                    .in_set(StartLoading)
                     .in_set(EditorSystems::Tools),
             )
             .add_systems(Update, load::finish.in_set(EditorSystems::ApplyEdits))

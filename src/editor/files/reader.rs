@@ -1,5 +1,6 @@
 //! Reading one source, away from the window: file -> records -> derived data.
 
+use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,8 +12,9 @@ use crate::editor::derive::Derived;
 use crate::editor::object::LoadedModel;
 use crate::exchange::iges;
 use crate::exchange::report::ImportReport;
-use crate::scene::demo;
+use crate::scene::file::{self, Fingerprint};
 use crate::scene::records::ModelRecord;
+use crate::scene::{SceneRecord, demo};
 
 use super::Source;
 
@@ -43,26 +45,82 @@ pub enum LoadError {
 /// Share of the progress bar that reading takes; building the structures takes the rest.
 const READING: f32 = 0.5;
 
+/// What was read from one source.
+#[derive(Debug, Clone, Default)]
+pub struct LoadedScene {
+    /// Its models: any number in a scene file, else one.
+    pub models: Vec<LoadedModel>,
+    /// What a scene file says beside the models.
+    pub file: Option<SceneFile>,
+}
+
+/// A scene file beside its models.
+#[derive(Debug, Clone)]
+pub struct SceneFile {
+    /// The file.
+    pub path: PathBuf,
+    /// The record without its models.
+    pub scene: SceneRecord,
+    /// What the file was like.
+    pub fingerprint: Fingerprint,
+}
+
 /// Reads `source`. `progress` gets the fraction done and says whether to go on.
 ///
 /// # Errors
 /// See [`LoadError`]; nothing is left half done.
-pub fn read_model(
+pub fn read_source(
     source: &Source,
     progress: &(dyn Fn(f32, &'static str) -> bool + Sync),
-) -> Result<LoadedModel, LoadError> {
+) -> Result<LoadedScene, LoadError> {
     let (path, record, report) = match source {
         Source::Demo => {
             let report = ImportReport { origin: "built-in demo scene".into(), ..ImportReport::default() };
             (None, demo::model(), report)
         }
+        Source::File(path) if is_scene(path) => return read_scene(path, progress),
         Source::File(path) => {
             let (record, report) = read_file(path, progress)?;
             (Some(path.clone()), record, report)
         }
     };
     let derived = derive_all(&record, progress)?;
-    Ok(LoadedModel { path, record, report, derived })
+    Ok(LoadedScene { models: vec![LoadedModel { path, record, report, derived }], file: None })
+}
+
+/// Whether a file is meant to be a scene file. One that cannot be read is not.
+fn is_scene(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = std::fs::File::open(path).and_then(|f| f.take(512).read_to_end(&mut head));
+    let named = path.extension().is_some_and(|e| e.eq_ignore_ascii_case(file::EXTENSION));
+    named || (read.is_ok() && file::is_scene(&head))
+}
+
+fn read_scene(
+    path: &Path,
+    progress: &(dyn Fn(f32, &'static str) -> bool + Sync),
+) -> Result<LoadedScene, LoadError> {
+    if !progress(0.0, "Reading") {
+        return Err(LoadError::Cancelled);
+    }
+    let fail = |message: String| LoadError::Read { path: path.to_owned(), message };
+    let file::Loaded { mut scene, fingerprint } = file::load(path).map_err(|e| fail(e.to_string()))?;
+    let records = std::mem::take(&mut scene.models);
+    let faces: usize = records.iter().map(|m| m.faces.len()).sum();
+    let mut before = 0;
+    let mut models = Vec::with_capacity(records.len());
+    for record in records {
+        let part = record.faces.len() as f32 / faces.max(1) as f32;
+        let start = before as f32 / faces.max(1) as f32;
+        let derived = derive_all(&record, &|fraction, stage| {
+            let own = (fraction - READING) / (1.0 - READING);
+            progress(READING + (1.0 - READING) * (start + part * own), stage)
+        })?;
+        before += record.faces.len();
+        let report = ImportReport { origin: "scene file".into(), ..ImportReport::default() };
+        models.push(LoadedModel { path: None, record, report, derived });
+    }
+    Ok(LoadedScene { models, file: Some(SceneFile { path: path.to_owned(), scene, fingerprint }) })
 }
 
 fn derive_all(

@@ -25,25 +25,12 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes) {
                 });
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                ui.label(RichText::new(title(reads)).color(reads.palette.weak));
+                let star = if reads.editing.is_unsaved() { "● " } else { "" };
+                let name = if reads.scene.is_empty() { String::new() } else { reads.document_name() };
+                ui.label(RichText::new(format!("{star}{name}")).color(reads.palette.weak));
             });
         });
     });
-}
-
-fn title(reads: &Reads) -> String {
-    let names: Vec<&str> = reads
-        .scene
-        .models
-        .iter()
-        .filter_map(|m| reads.models.get(m.entity).ok())
-        .map(|m| m.name.as_str())
-        .collect();
-    match names.as_slice() {
-        [] => String::new(),
-        [one] => (*one).to_owned(),
-        [first, rest @ ..] => format!("{first} and {} more", rest.len()),
-    }
 }
 
 /// One entry: tick, label, key.

@@ -4,17 +4,22 @@
 //! around and above the viewport, whose rectangle it leaves in [`Viewport`].
 
 mod about;
+mod command_palette;
 mod format;
 mod help;
+mod history;
 mod icon;
 mod menu;
 mod notice;
 mod progress;
+mod prompt;
 mod properties;
+mod question;
 mod report;
 mod status;
 mod toolbar;
 mod tree;
+mod tree_look;
 mod tree_rows;
 mod view_cube;
 
@@ -28,7 +33,9 @@ pub use notice::{Notice, Notices};
 
 use super::camera::{CameraRequest, ViewCamera};
 use super::diagnostics::{ProcessMemory, RenderFigures};
-use super::files::{Loading, OpenDialog, OpenFiles};
+use super::document::{Answer, DocumentFile, Questions, SaveRequest, Saving, document_name};
+use super::editing::{EditRequest, Editing, Prompt, RunEdit};
+use super::files::{FileDialogs, Loading, OpenFiles, Picked};
 use super::object::{AuthoredFace, DerivedFace, FacePlace, Model, Part, Records, Scene, Shown};
 use super::picking::{LeftButton, Picker};
 use super::selection::{SelectRequest, Selection, VisibilityRequest};
@@ -67,6 +74,8 @@ pub struct PanelState {
     pub(super) tree: tree::TreeState,
     /// The import report.
     pub(super) report: report::ReportState,
+    /// The command palette.
+    pub palette: command_palette::PaletteState,
 }
 
 /// What panels read of a face.
@@ -86,6 +95,9 @@ pub(super) struct Reads<'w, 's> {
     pub scene: Res<'w, Scene>,
     pub situation: Res<'w, CurrentSituation>,
     pub loading: Res<'w, Loading>,
+    pub editing: Res<'w, Editing>,
+    pub file: Res<'w, DocumentFile>,
+    pub saving: Res<'w, Saving>,
     pub picker: Res<'w, Picker>,
     pub left: Res<'w, LeftButton>,
     pub camera: Res<'w, ViewCamera>,
@@ -97,6 +109,13 @@ pub(super) struct Reads<'w, 's> {
     pub parts: Query<'w, 's, &'static Part>,
 }
 
+impl Reads<'_, '_> {
+    /// The name of the document.
+    pub fn document_name(&self) -> String {
+        document_name(&self.file, &self.scene, |e| self.models.get(e).ok().map(|m| m.name.clone()))
+    }
+}
+
 /// Messages that panels write.
 #[derive(SystemParam)]
 pub(super) struct Writes<'w> {
@@ -105,6 +124,10 @@ pub(super) struct Writes<'w> {
     pub visibility: MessageWriter<'w, VisibilityRequest>,
     pub camera: MessageWriter<'w, CameraRequest>,
     pub open: MessageWriter<'w, OpenFiles>,
+    pub save: MessageWriter<'w, SaveRequest>,
+    pub edits: MessageWriter<'w, EditRequest>,
+    pub run: MessageWriter<'w, RunEdit>,
+    pub answers: MessageWriter<'w, Answer>,
     pub redraw: MessageWriter<'w, RequestRedraw>,
 }
 
@@ -114,7 +137,9 @@ pub(super) struct Owned<'w> {
     pub state: ResMut<'w, PanelState>,
     pub selection: ResMut<'w, Selection>,
     pub notices: ResMut<'w, Notices>,
-    pub dialog: ResMut<'w, OpenDialog>,
+    pub dialogs: ResMut<'w, FileDialogs>,
+    pub prompt: ResMut<'w, Prompt>,
+    pub questions: Res<'w, Questions>,
     pub viewport: ResMut<'w, Viewport>,
 }
 
@@ -124,6 +149,7 @@ fn sheets(mut requests: MessageReader<CommandRequest>, mut state: ResMut<PanelSt
         match action {
             Action::Shortcuts => state.help = !state.help,
             Action::About => state.about = !state.about,
+            Action::Palette => state.palette.toggle(),
             Action::Find => state.tree.focus_search = true,
             _ => {}
         }
@@ -161,6 +187,9 @@ fn show(
     if reads.settings.properties {
         properties::show(&mut root, &reads, &owned.selection);
     }
+    if reads.settings.history {
+        history::show(&mut root, &reads, &mut writes);
+    }
     let rect = root.available_rect_before_wrap();
     set_viewport(&mut owned.viewport, rect, windows.single().map_or(1.0, Window::scale_factor), &mut writes);
     view_cube::show(&root, rect, &reads, &mut writes);
@@ -168,9 +197,15 @@ fn show(
     notice::show(&ctx, rect, &reads.palette, &mut owned.notices);
     help::show(&ctx, &reads.palette, &mut owned.state.help);
     about::show(&ctx, &reads.palette, &mut owned.state.about);
-    owned.dialog.dialog.update(&ctx);
-    if let Some(request) = owned.dialog.take_request() {
-        writes.open.write(request);
+    command_palette::show(&ctx, &reads, &mut owned.state.palette, &mut writes);
+    prompt::show(&ctx, &reads.palette, &mut owned.prompt, &mut writes);
+    question::show(&ctx, &reads, &owned.questions, &mut writes);
+    owned.dialogs.dialog.update(&ctx);
+    if let Some(picked) = owned.dialogs.take_picked() {
+        match picked {
+            Picked::Open(files) => drop(writes.open.write(files)),
+            Picked::Save(request) => drop(writes.save.write(request)),
+        }
         writes.redraw.write(RequestRedraw);
     }
     Ok(())

@@ -6,7 +6,7 @@ use bevy_egui::egui::{
 };
 
 use super::format::{coordinate, count, number, plural};
-use super::tree::srgb;
+use super::tree_look::srgb;
 use super::{FaceViewItem, Reads};
 use crate::editor::selection::Selection;
 use crate::editor::theme::size as text;

@@ -12,7 +12,13 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, selection: &Selection) {
     egui::Panel::bottom("status").frame(frame).show(root, |ui| {
         ui.horizontal(|ui| {
             ui.style_mut().override_text_style = Some(egui::TextStyle::Small);
-            ui.label(RichText::new(under_pointer(reads)).color(reads.palette.text));
+            match (reads.editing.refused(), reads.saving.path()) {
+                (Some(reason), _) => ui.label(RichText::new(reason).color(reads.palette.warning)),
+                (None, Some(path)) => {
+                    ui.label(RichText::new(format!("Saving {}", path.display())).color(reads.palette.text))
+                }
+                (None, None) => ui.label(RichText::new(under_pointer(reads)).color(reads.palette.text)),
+            };
             if !selection.is_empty() {
                 separator(ui, reads);
                 let text = format!("{} selected", plural(selection.faces().len(), "face"));

@@ -1,9 +1,13 @@
 //! The one table of commands. Menus, keys, the toolbar and the help sheet are all made from it.
 
+use std::sync::LazyLock;
+
 use bevy::input::keyboard::KeyCode;
 use bevy::prelude::Message;
 
+use super::edit_action::EditAction;
 use super::key::Shortcut;
+use super::situation::Situation;
 use crate::editor::settings::{DisplayMode, Settings};
 use crate::kernel::view::StandardView;
 
@@ -11,14 +15,20 @@ use crate::kernel::view::StandardView;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the table below says it in words")]
 pub enum Action {
+    New,
     Open,
     Import,
+    Save,
+    SaveAs,
+    Export,
     OpenDemo,
     Cancel,
     CloseAll,
     Quit,
     Undo,
     Redo,
+    Edit(EditAction),
+    Palette,
     SelectAll,
     InvertSelection,
     ClearSelection,
@@ -33,6 +43,8 @@ pub enum Action {
     ToggleTree,
     ToggleProperties,
     ToggleReport,
+    ToggleHistory,
+    ToggleProblems,
     Display(DisplayMode),
     ToggleEdges,
     ToggleGrid,
@@ -51,6 +63,9 @@ pub struct CommandRequest(pub Action);
 pub enum Menu {
     File,
     Edit,
+    Loop,
+    Curve,
+    Surface,
     View,
     Display,
     Help,
@@ -58,13 +73,25 @@ pub enum Menu {
 
 impl Menu {
     /// All menus from left to right.
-    pub const ALL: [Self; 5] = [Self::File, Self::Edit, Self::View, Self::Display, Self::Help];
+    pub const ALL: [Self; 8] = [
+        Self::File,
+        Self::Edit,
+        Self::Loop,
+        Self::Curve,
+        Self::Surface,
+        Self::View,
+        Self::Display,
+        Self::Help,
+    ];
 
     /// Name to show.
     pub fn label(self) -> &'static str {
         match self {
             Self::File => "File",
             Self::Edit => "Edit",
+            Self::Loop => "Loop",
+            Self::Curve => "Curve",
+            Self::Surface => "Surface",
             Self::View => "View",
             Self::Display => "Display",
             Self::Help => "Help",
@@ -72,25 +99,8 @@ impl Menu {
     }
 }
 
-/// What the enabling of commands depends on.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Situation {
-    /// A model is open.
-    pub model: bool,
-    /// At least one face is selected.
-    pub selection: bool,
-    /// At least one face is hidden.
-    pub hidden: bool,
-    /// There is a step to undo, or a drag to take back.
-    pub undo: bool,
-    /// There is a step to redo.
-    pub redo: bool,
-    /// A file is being read.
-    pub loading: bool,
-}
-
 /// One command.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Command {
     /// What it does.
     pub action: Action,
@@ -132,7 +142,7 @@ const fn while_loading(s: &Situation) -> bool {
     s.loading
 }
 
-const fn command(
+pub(super) const fn command(
     menu: Menu,
     action: Action,
     id: &'static str,
@@ -143,10 +153,10 @@ const fn command(
 }
 
 impl Command {
-    const fn separated(self) -> Self {
+    pub(super) const fn separated(self) -> Self {
         Self { separated: true, ..self }
     }
-    const fn when(self, enabled: fn(&Situation) -> bool) -> Self {
+    pub(super) const fn when(self, enabled: fn(&Situation) -> bool) -> Self {
         Self { enabled, ..self }
     }
     const fn checked(self, checked: fn(&Settings) -> bool) -> Self {
@@ -163,9 +173,21 @@ const fn code(code: KeyCode) -> Shortcut {
 }
 
 /// Every command, menu by menu in menu order.
-pub static COMMANDS: &[Command] = &[
+pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
+    let mut all = [PLAIN, &super::edit_table::ROWS].concat();
+    // Stable: within its menu each row stays where its table has it.
+    all.sort_by_key(|c| Menu::ALL.iter().position(|m| *m == c.menu));
+    all
+});
+
+/// The commands that do not edit geometry.
+const PLAIN: &[Command] = &[
+    command(File, Action::New, "file.new", "New", &[key('n').ctrl()]),
     command(File, Action::Open, "file.open", "Open…", &[key('o').ctrl()]),
-    command(File, Action::Import, "file.import", "Add to scene…", &[key('i').ctrl()]),
+    command(File, Action::Import, "file.import", "Import into scene…", &[key('i').ctrl()]),
+    command(File, Action::Save, "file.save", "Save", &[key('s').ctrl()]).separated().when(with_model),
+    command(File, Action::SaveAs, "file.save_as", "Save as…", &[key('s').ctrl().shift()]).when(with_model),
+    command(File, Action::Export, "file.export", "Export IGES…", &[key('e').ctrl()]).when(with_model),
     command(File, Action::OpenDemo, "file.demo", "Open demo scene", &[key('d').ctrl()]),
     command(File, Action::Cancel, "file.cancel", "Cancel loading", &[code(KeyCode::Backspace)])
         .separated()
@@ -175,6 +197,7 @@ pub static COMMANDS: &[Command] = &[
     command(Edit, Action::Undo, "edit.undo", "Undo", &[key('z').ctrl()]).when(with_undo),
     command(Edit, Action::Redo, "edit.redo", "Redo", &[key('z').ctrl().shift(), key('y').ctrl()])
         .when(with_redo),
+    command(Edit, Action::Palette, "edit.palette", "Command palette…", &[key('p').ctrl()]),
     command(Edit, Action::SelectAll, "edit.select_all", "Select all", &[key('a').ctrl()])
         .separated()
         .when(with_model),
@@ -252,6 +275,9 @@ pub static COMMANDS: &[Command] = &[
     command(View, Action::ToggleProperties, "view.properties", "Properties", &[key('n')])
         .checked(|s| s.properties),
     command(View, Action::ToggleReport, "view.report", "Import report", &[key('r')]).checked(|s| s.report),
+    command(View, Action::ToggleHistory, "view.history", "History", &[key('y')]).checked(|s| s.history),
+    command(View, Action::ToggleProblems, "view.problems", "Problems", &[code(KeyCode::F3)])
+        .checked(|s| s.problems),
     command(
         Display,
         Action::Display(DisplayMode::Shaded),

@@ -75,6 +75,11 @@ impl Shortcut {
         Self { shift: true, ..self }
     }
 
+    /// The same with Alt.
+    pub const fn alt(self) -> Self {
+        Self { alt: true, ..self }
+    }
+
     /// Whether a key press means this shortcut.
     pub fn matches(&self, logical: &LogicalKey, code: KeyCode, held: Modifiers) -> bool {
         let (cap, sign) = match self.cap {

@@ -1,69 +1,60 @@
 //! From key presses to commands.
 
-use bevy::input::keyboard::{KeyboardFocusLost, KeyboardInput};
 use bevy::prelude::*;
+use bevy::window::WindowEvent;
 
-use super::command::{Action, COMMANDS, Command, CommandRequest, Situation};
+use super::command::{Action, COMMANDS, Command, CommandRequest};
 use super::key::Modifiers;
-use crate::editor::editing::Editing;
-use crate::editor::files::Loading;
-use crate::editor::object::{FaceChange, Scene, Shown};
-use crate::editor::selection::Selection;
-use crate::editor::viewport::Pointer;
+use super::situation::CurrentSituation;
+use crate::editor::viewport::{Pointer, Viewport};
 
-/// The [`Situation`] of this frame.
-#[derive(Resource, Debug, Default, Clone, Copy)]
-pub struct CurrentSituation(pub Situation);
-
-/// Looks at what is open, selected and hidden.
-pub(super) fn observe(
-    mut current: ResMut<CurrentSituation>,
-    scene: Res<Scene>,
-    selection: Res<Selection>,
-    loading: Res<Loading>,
-    editing: Res<Editing>,
-    shown: Query<&Shown>,
-    mut changes: MessageReader<FaceChange>,
-    mut seen: Local<u64>,
-) {
-    let switched = changes.read().any(|c| matches!(c, FaceChange::Shown(_)));
-    let hidden = if *seen != scene.revision || switched {
-        *seen = scene.revision;
-        shown.iter().any(|s| !s.0)
-    } else {
-        current.0.hidden
-    };
-    current.0 = Situation {
-        model: !scene.is_empty(),
-        selection: !selection.is_empty(),
-        hidden,
-        undo: editing.is_dragging() || editing.history().undo_count() > 0,
-        redo: editing.history().redo_count() > 0,
-        loading: loading.is_active(),
-    };
+/// What is followed from event to event, across frames.
+#[derive(Debug, Default)]
+pub(super) struct Hands {
+    held: Modifiers,
+    position: Option<Vec2>,
 }
 
-/// Sends the command of each key pressed, if it is enabled now. Modifiers are followed message by message:
-/// in a slow frame Ctrl may be down and up again before it is over.
+/// Sends the command of each key pressed, if it is enabled now. Events are taken in the order in which they
+/// came: in a slow frame Ctrl may be down and up again, or a panel's text field clicked and typed into,
+/// before it is over. What follows a click on a panel in the same frame may be meant for a text field, so
+/// that plain keys do nothing then.
 pub(super) fn press(
-    mut presses: MessageReader<KeyboardInput>,
-    mut focus_lost: MessageReader<KeyboardFocusLost>,
-    mut held: Local<Modifiers>,
+    mut events: MessageReader<WindowEvent>,
+    mut hands: Local<Hands>,
+    viewport: Res<Viewport>,
     pointer: Res<Pointer>,
     situation: Res<CurrentSituation>,
     mut requests: MessageWriter<CommandRequest>,
 ) {
-    if focus_lost.read().count() > 0 {
-        *held = Modifiers::default();
-    }
-    for press in presses.read() {
-        held.follow(press.key_code, press.state);
-        if !press.state.is_pressed() || press.repeat || pointer.keyboard_taken {
+    let mut on_panel = false;
+    for event in events.read() {
+        let press = match event {
+            WindowEvent::CursorMoved(moved) => {
+                hands.position = Some(moved.position);
+                continue;
+            }
+            WindowEvent::MouseButtonInput(input) => {
+                if input.state.is_pressed() {
+                    on_panel = hands.position.is_some_and(|p| !viewport.contains(p));
+                }
+                continue;
+            }
+            WindowEvent::KeyboardFocusLost(_) => {
+                hands.held = Modifiers::default();
+                continue;
+            }
+            WindowEvent::KeyboardInput(press) => press,
+            _ => continue,
+        };
+        hands.held.follow(press.key_code, press.state);
+        let typing = pointer.keyboard_taken || (on_panel && !hands.held.ctrl && !hands.held.alt);
+        if !press.state.is_pressed() || press.repeat || typing {
             continue;
         }
         let command = COMMANDS
             .iter()
-            .find(|c| c.keys.iter().any(|k| k.matches(&press.logical_key, press.key_code, *held)));
+            .find(|c| c.keys.iter().any(|k| k.matches(&press.logical_key, press.key_code, hands.held)));
         let served =
             |c: &&Command| !pointer.sheet_open || matches!(c.action, Action::Shortcuts | Action::About);
         if let Some(command) = command.filter(served).filter(|c| (c.enabled)(&situation.0)) {

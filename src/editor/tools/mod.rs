@@ -4,22 +4,29 @@
 //! keeps [`Situation`] up to date; each capability reads the requests it serves in `Tools`.
 
 mod command;
+mod edit_action;
+mod edit_table;
 mod key;
 mod keyboard;
+mod search;
+mod situation;
 
 use bevy::prelude::*;
 
-pub use command::{Action, COMMANDS, Command, CommandRequest, MOUSE_HELP, Menu, Situation};
+pub use command::{Action, COMMANDS, Command, CommandRequest, MOUSE_HELP, Menu};
+pub use edit_action::{EditAction, Needs};
 pub use key::{KeyCap, Modifiers, Shortcut};
-pub use keyboard::CurrentSituation;
+pub use search::find;
+pub use situation::{CurrentSituation, Situation};
 
 /// Adds the command table.
 pub struct ToolsPlugin;
 
 impl Plugin for ToolsPlugin {
     fn build(&self, app: &mut App) {
-        app.add_message::<CommandRequest>()
-            .init_resource::<CurrentSituation>()
-            .add_systems(Update, (keyboard::observe, keyboard::press).chain().in_set(super::NavigationInput));
+        app.add_message::<CommandRequest>().init_resource::<CurrentSituation>().add_systems(
+            Update,
+            (situation::observe, keyboard::press).chain().in_set(super::NavigationInput),
+        );
     }
 }
