@@ -21,7 +21,8 @@ Examples:
   hairline convert part.igs part-in-inches.igs --unit in
   hairline bench classify
 
-FILE may be the word `demo` for the built-in scene (`./demo` for a file of that name).
+FILE may be the word `demo` for the built-in scene (`./demo` for a file of that name), or `demo:N` for a
+quilt of N panels to measure with (demo:50000).
 
 Exit codes:
   0  done (a reader that closes the pipe early, `| head`, is no error)

@@ -28,7 +28,7 @@ pub struct OpenedScene {
     pub report: ImportReport,
 }
 
-/// Reads the model at `path`; the path `demo` is the built-in scene. `progress` is told the part done, 0 to 1.
+/// Reads the model at `path`; the paths `demo` and `demo:N` are built-in scenes. `progress` is told the part done, 0 to 1.
 ///
 /// # Errors
 /// The file is missing, unreadable, or no model in a format that is understood.
@@ -42,9 +42,9 @@ pub fn open(path: &Path, progress: &dyn Fn(f64)) -> Result<Opened, Failure> {
 /// # Errors
 /// As [`open`].
 pub fn open_scene(path: &Path, progress: &dyn Fn(f64)) -> Result<OpenedScene, Failure> {
-    if path == Path::new("demo") {
+    if let Some(model) = demo::named(path) {
         let report = ImportReport { origin: "built-in demo scene".into(), ..ImportReport::default() };
-        return Ok(OpenedScene { scene: SceneRecord::of_model(demo::model()), report });
+        return Ok(OpenedScene { scene: SceneRecord::of_model(model), report });
     }
     check(path)?;
     let fail = |reason: String| Failure::Input { path: path.into(), reason };
@@ -68,14 +68,14 @@ pub fn open_scene(path: &Path, progress: &dyn Fn(f64)) -> Result<OpenedScene, Fa
     Ok(OpenedScene { scene: SceneRecord::of_model(model), report })
 }
 
-/// Checks that there is a file at `path` without reading it; the path `demo` always passes.
+/// Checks that there is a file at `path` without reading it; built-in scenes always pass.
 ///
 /// # Errors
 /// Nothing is there, or a directory.
 pub fn check(path: &Path) -> Result<(), Failure> {
     let fail = |reason: String| Failure::Input { path: path.into(), reason };
     match fs::metadata(path) {
-        _ if path == Path::new("demo") => Ok(()),
+        _ if demo::is_named(path) => Ok(()),
         Ok(metadata) if metadata.is_dir() => Err(fail("it is a directory".into())),
         Ok(_) => Ok(()),
         Err(error) => Err(fail(plain(&error))),

@@ -79,6 +79,10 @@ pub fn read_source(
             (None, demo::model(), report)
         }
         Source::File(path) if is_scene(path) => return read_scene(path, progress),
+        Source::File(path) if demo::is_named(path) => {
+            let report = ImportReport { origin: "built-in scene".into(), ..ImportReport::default() };
+            (None, demo::named(path).unwrap_or_default(), report)
+        }
         Source::File(path) => {
             let (record, report) = read_file(path, progress)?;
             (Some(path.clone()), record, report)

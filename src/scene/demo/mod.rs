@@ -7,6 +7,7 @@
 mod assembly;
 mod coin;
 mod lettering;
+mod panels;
 mod pedestal;
 mod plate;
 mod puzzle_ball;
@@ -15,10 +16,34 @@ mod ruled;
 mod sail;
 mod shape;
 
+pub use panels::panels;
 pub use plate::holes;
+
+use std::path::Path;
 
 use super::records::ModelRecord;
 use crate::kernel::primitives::outline;
+
+/// Panels at most in a scene asked for by name.
+const MOST_PANELS: usize = 1_000_000;
+
+/// The scene that is opened in place of a file: `demo`, or `demo:50000` for that many [`panels`]. `None`
+/// for every other name.
+pub fn named(name: &Path) -> Option<ModelRecord> {
+    let count = name.to_str()?.strip_prefix("demo")?;
+    if count.is_empty() { Some(model()) } else { panel_count(count).map(panels) }
+}
+
+/// `:50000` as a number of panels.
+fn panel_count(text: &str) -> Option<usize> {
+    text.strip_prefix(':')?.parse().ok().filter(|n| (1..=MOST_PANELS).contains(n))
+}
+
+/// Whether [`named`] knows `name`; makes nothing.
+pub fn is_named(name: &Path) -> bool {
+    let count = name.to_str().and_then(|n| n.strip_prefix("demo"));
+    count.is_some_and(|c| c.is_empty() || panel_count(c).is_some())
+}
 
 /// The demo scene.
 pub fn model() -> ModelRecord {
@@ -35,6 +60,17 @@ pub fn model() -> ModelRecord {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn scenes_have_names() {
+        assert_eq!(named(Path::new("demo:9")).map(|m| m.faces.len()), Some(9));
+        for (name, known) in
+            [("demo", true), ("demo:1", true), ("demo:0", false), ("demo:x", false), ("./demo", false)]
+        {
+            assert_eq!(is_named(Path::new(name)), known, "{name}");
+        }
+        assert!(named(Path::new("demo:1000001")).is_none() && named(Path::new("a.igs")).is_none());
+    }
 
     #[test]
     fn loops_are_closed_and_inside_and_faces_have_names_parts_and_colours() {
