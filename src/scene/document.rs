@@ -10,6 +10,7 @@ use super::edit::FaceId;
 use super::records::{FaceRecord, LoopRecord, ModelRecord, PartRecord, SourceRecord};
 use super::settings::{DisplayRecord, ViewRecord};
 use crate::kernel::nurbs::NurbsSurface;
+use crate::kernel::trim::validity::{self, LoopProblem};
 use crate::kernel::trim::{Periods, UvRect};
 use crate::kernel::view::Camera;
 
@@ -182,6 +183,11 @@ impl<'a> FaceView<'a> {
     /// The domain of the surface.
     pub fn domain(&self) -> UvRect {
         UvRect::of_surface(self.surface)
+    }
+
+    /// What is wrong with its loops, and where.
+    pub fn problems(&self) -> Vec<LoopProblem> {
+        validity::check(self.surface, &self.loops)
     }
 
     /// Period of the surface in u and v, 0 where it is not closed. Not free: it samples the border.

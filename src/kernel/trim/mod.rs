@@ -25,6 +25,7 @@ pub mod record;
 pub mod remark;
 pub mod segment;
 pub mod tally;
+pub mod validity;
 
 pub use brute::BruteForce;
 pub use domain::{Periods, UvRect};
