@@ -7,7 +7,9 @@ struct View {
   fade: vec4f,
   // Size of the viewport, pixels.
   size_px: vec2f,
-  padding: vec2f,
+  // Factor of the (reversed) depth: below 1 is farther than it is.
+  depth: f32,
+  padding: f32,
 }
 
 struct Line {
@@ -61,8 +63,7 @@ fn vertex(line: Line, @builtin(vertex_index) index: u32) -> Corner {
   let reach = 0.5 * line.width_px + 1.0;
   let side = select(-reach, reach, left);
   let end = select(a, b, at_end);
-  // A little farther than it is: a surface in the plane of the grid covers it.
-  out.clip = vec4f(end.xy + normal * side / half * end.w, end.z * 0.998, end.w);
+  out.clip = vec4f(end.xy + normal * side / half * end.w, end.z * view.depth, end.w);
   out.color = line.color;
   out.across = vec2f(side, 0.5 * line.width_px);
   out.relative = select(p, q, at_end);

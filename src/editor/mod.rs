@@ -18,6 +18,7 @@ pub mod document;
 pub mod editing;
 pub mod elements;
 pub mod files;
+pub mod inspection;
 pub mod object;
 pub mod panels;
 pub mod picking;
@@ -86,6 +87,7 @@ impl Plugin for EditorPlugin {
             document::DocumentPlugin,
             camera::CameraPlugin,
             picking::PickingPlugin { windowed: self.windowed },
+            inspection::InspectionPlugin,
             redraw::RedrawPlugin,
         ))
         .init_resource::<panels::Notices>()

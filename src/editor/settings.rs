@@ -68,6 +68,9 @@ pub struct Settings {
     pub problems: bool,
     /// Seconds after a change after which a copy is kept to recover from; 0 keeps none.
     pub autosave_s: u32,
+    /// Whether edges are inspected. Not kept between runs: measuring a large model takes a while.
+    #[serde(skip)]
+    pub inspection: bool,
     /// Files opened lately, latest first.
     pub recent: Vec<PathBuf>,
 }
@@ -86,6 +89,7 @@ impl Default for Settings {
             history: false,
             problems: false,
             autosave_s: 20,
+            inspection: false,
             recent: Vec::new(),
         }
     }
@@ -116,6 +120,7 @@ fn switch(mut requests: MessageReader<CommandRequest>, mut settings: ResMut<Sett
             Action::ToggleReport => &mut settings.report,
             Action::ToggleHistory => &mut settings.history,
             Action::ToggleProblems => &mut settings.problems,
+            Action::ToggleInspection => &mut settings.inspection,
             Action::Find => {
                 settings.tree = true;
                 continue;

@@ -6,6 +6,7 @@ mod document;
 mod edit_commands;
 mod editing;
 mod input;
+mod inspection;
 #[cfg(target_os = "linux")]
 mod screen;
 mod settings;

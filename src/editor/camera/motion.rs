@@ -53,6 +53,23 @@ pub fn zoom(camera: &Camera, about: DVec3, factor: f64, scale: f64) -> Camera {
     zoomed
 }
 
+/// The camera that looks at `point` along `direction` and sees `size` model units of the plane through it, from top
+/// to bottom.
+pub fn approach(camera: &Camera, point: DVec3, direction: DVec3, up: DVec3, size: f64) -> Camera {
+    let direction = direction.normalize_or(DVec3::NEG_Z);
+    match camera.projection {
+        Projection::Perspective { fov_y } => {
+            let distance = 0.5 * size / (0.5 * fov_y).tan();
+            Camera { eye: point - direction * distance, target: point, up, projection: camera.projection }
+        }
+        Projection::Orthographic { .. } => {
+            let distance = camera.distance().max(size);
+            let projection = Projection::Orthographic { height: size };
+            Camera { eye: point - direction * distance, target: point, up, projection }
+        }
+    }
+}
+
 /// Height of what is seen in the plane through the target, model units.
 pub fn view_size(camera: &Camera) -> f64 {
     2.0 * camera.half_extent(1.0).y

@@ -34,6 +34,17 @@ pub enum CameraRequest {
     },
     /// This view, at once.
     Go(ViewPoint),
+    /// Straight to a place.
+    Approach {
+        /// The point to look at, in the middle of the screen.
+        point: DVec3,
+        /// Direction of sight.
+        direction: DVec3,
+        /// Up on the screen.
+        up: DVec3,
+        /// Height of what is seen in the plane through the point, model units.
+        size: f64,
+    },
     /// Perspective to parallel and back.
     ToggleProjection,
 }
@@ -98,6 +109,9 @@ pub(super) fn serve(
             CameraRequest::Standard(view) => {
                 let (direction, up) = view.directions();
                 fit(&all(), direction, up)
+            }
+            CameraRequest::Approach { point, direction, up, size } => {
+                motion::approach(&from, *point, *direction, *up, *size)
             }
             CameraRequest::Look { direction, up } => motion::look_along(&from, *direction, *up),
             CameraRequest::Go(view) => {

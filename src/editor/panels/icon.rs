@@ -21,6 +21,7 @@ pub(super) enum Icon {
     Parallel,
     Eye,
     EyeOff,
+    Left,
     Right,
     Down,
     Search,
@@ -167,6 +168,7 @@ pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
                 line(&[(3.0, 14.0), (13.0, 2.0)]);
             }
         }
+        Icon::Left => line(&[(10.0, 4.5), (6.2, 8.0), (10.0, 11.5)]),
         Icon::Right => line(&[(6.0, 4.5), (9.8, 8.0), (6.0, 11.5)]),
         Icon::Down => line(&[(4.5, 6.0), (8.0, 9.8), (11.5, 6.0)]),
         Icon::Search => {

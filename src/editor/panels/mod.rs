@@ -9,6 +9,7 @@ mod format;
 mod help;
 mod history;
 mod icon;
+mod inspection;
 mod menu;
 mod notice;
 mod progress;
@@ -163,6 +164,7 @@ fn show(
     reads: Reads,
     mut writes: Writes,
     mut owned: Owned,
+    mut inspection: inspection::InspectionState,
 ) -> Result {
     let ctx = contexts.ctx_mut()?.clone();
     if !theme::is_ready(&ctx) {
@@ -181,6 +183,9 @@ fn show(
     if reads.settings.report {
         report::show(&mut root, &reads, &mut writes, &mut owned);
     }
+    if reads.settings.inspection {
+        inspection::show(&mut root, &reads, &mut writes, &mut inspection);
+    }
     if reads.settings.tree {
         tree::show(&mut root, &reads, &mut writes, &mut owned);
     }
@@ -192,6 +197,7 @@ fn show(
     }
     let rect = root.available_rect_before_wrap();
     set_viewport(&mut owned.viewport, rect, windows.single().map_or(1.0, Window::scale_factor), &mut writes);
+    inspection::overlay(&root, rect, &reads, &owned.viewport, &inspection);
     view_cube::show(&root, rect, &reads, &mut writes);
     progress::show(&ctx, rect, &reads, &mut writes);
     notice::show(&ctx, rect, &reads.palette, &mut owned.notices);

@@ -18,10 +18,11 @@ const DENSITY: f64 = 40.0;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct LineInstance {
-    start: [f32; 3],
-    end: [f32; 3],
-    color: [f32; 4],
-    width_px: f32,
+    pub start: [f32; 3],
+    pub end: [f32; 3],
+    /// Linear RGB, not premultiplied.
+    pub color: [f32; 4],
+    pub width_px: f32,
 }
 
 impl LineInstance {

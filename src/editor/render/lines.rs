@@ -6,9 +6,13 @@ use bevy::render::view::{ViewDepthTexture, ViewTarget};
 
 use super::frame::FrameView;
 use super::grid::{Grid, LineInstance};
+use crate::editor::camera::clip::ClipView;
 
 /// Most lines drawn.
 const CAPACITY: usize = 1024;
+
+/// Depth of the grid: a little farther than it is, so that a surface in its plane covers it.
+const BEHIND: f32 = 0.998;
 
 /// Pipeline and buffers.
 #[derive(Resource)]
@@ -23,11 +27,31 @@ pub(super) struct Lines {
 
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct Uniform {
+pub(super) struct Uniform {
     clip_from_relative: [[f32; 4]; 4],
     fade: [f32; 4],
     size_px: [f32; 2],
-    padding: [f32; 2],
+    /// Factor of the (reversed) depth: below 1 is farther than it is.
+    depth: f32,
+    padding: f32,
+}
+
+impl Uniform {
+    /// For lines that do not fade with distance and are as far as they are.
+    pub fn without_fade(clip: &ClipView, size: UVec2) -> Self {
+        Self {
+            clip_from_relative: clip.for_shader().to_cols_array_2d(),
+            fade: [0.0, 0.0, 0.0, f32::MAX],
+            size_px: [size.x as f32, size.y as f32],
+            depth: 1.0,
+            padding: 0.0,
+        }
+    }
+}
+
+/// An opaque colour as the shader gets it.
+pub(super) fn ink([r, g, b]: [u8; 3]) -> [f32; 4] {
+    bevy_egui::egui::Rgba::from(bevy_egui::egui::Color32::from_rgb(r, g, b)).to_array()
 }
 
 /// Makes what does not depend on the target's format.
@@ -82,7 +106,8 @@ pub(super) fn draw(
         clip_from_relative: frame.clip.for_shader().to_cols_array_2d(),
         fade: fade.to_array(),
         size_px: [size.x as f32, size.y as f32],
-        padding: [0.0; 2],
+        depth: BEHIND,
+        padding: 0.0,
     };
     queue.write_buffer(&lines.uniform, 0, bytemuck::bytes_of(&uniform));
     queue.write_buffer(&lines.instances, 0, bytemuck::cast_slice(&grid.lines[..count]));

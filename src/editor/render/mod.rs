@@ -6,6 +6,7 @@
 //! `RenderStartup`, again after a device loss.
 
 mod backdrop;
+mod edges;
 mod faces;
 mod frame;
 mod grid;
@@ -52,15 +53,23 @@ impl Plugin for RenderPlugin {
             .insert_resource(answers)
             .init_resource::<frame::FrameView>()
             .init_resource::<faces::RenderFaces>()
+            .init_resource::<edges::RenderEdges>()
             .init_resource::<Waker>()
             .add_systems(
                 RenderStartup,
-                (backdrop::create, lines::create, model::create, highlight::create, pick::create),
+                (
+                    backdrop::create,
+                    lines::create,
+                    edges::create,
+                    model::create,
+                    highlight::create,
+                    pick::create,
+                ),
             )
-            .add_systems(ExtractSchedule, (frame::extract, faces::extract, mark))
+            .add_systems(ExtractSchedule, (frame::extract, faces::extract, edges::extract, mark))
             .add_systems(
                 Core3d,
-                (backdrop::draw, model::draw, highlight::draw, pick::copy, lines::draw)
+                (backdrop::draw, model::draw, highlight::draw, pick::copy, lines::draw, edges::draw)
                     .chain()
                     .after(main_opaque_pass_3d)
                     .before(main_transparent_pass_3d)

@@ -45,6 +45,9 @@ pub enum Action {
     ToggleReport,
     ToggleHistory,
     ToggleProblems,
+    ToggleInspection,
+    NextDefect,
+    PreviousDefect,
     Display(DisplayMode),
     ToggleEdges,
     ToggleGrid,
@@ -68,12 +71,13 @@ pub enum Menu {
     Surface,
     View,
     Display,
+    Inspect,
     Help,
 }
 
 impl Menu {
     /// All menus from left to right.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::File,
         Self::Edit,
         Self::Loop,
@@ -81,6 +85,7 @@ impl Menu {
         Self::Surface,
         Self::View,
         Self::Display,
+        Self::Inspect,
         Self::Help,
     ];
 
@@ -94,6 +99,7 @@ impl Menu {
             Self::Surface => "Surface",
             Self::View => "View",
             Self::Display => "Display",
+            Self::Inspect => "Inspect",
             Self::Help => "Help",
         }
     }
@@ -138,6 +144,9 @@ const fn with_undo(s: &Situation) -> bool {
 const fn with_redo(s: &Situation) -> bool {
     s.redo
 }
+const fn with_inspection(s: &Situation) -> bool {
+    s.inspection
+}
 const fn while_loading(s: &Situation) -> bool {
     s.loading
 }
@@ -164,7 +173,7 @@ impl Command {
     }
 }
 
-use Menu::{Display, Edit, File, Help, View};
+use Menu::{Display, Edit, File, Help, Inspect, View};
 const fn key(c: char) -> Shortcut {
     Shortcut::char(c)
 }
@@ -325,6 +334,25 @@ const PLAIN: &[Command] = &[
     command(Display, Action::ToggleTheme, "display.theme", "Light theme", &[key('l')])
         .separated()
         .checked(|s| s.light),
+    command(
+        Inspect,
+        Action::ToggleInspection,
+        "inspect.edges",
+        "Gaps and naked edges",
+        &[code(KeyCode::F10), key('k')],
+    )
+    .checked(|s| s.inspection),
+    command(Inspect, Action::NextDefect, "inspect.next", "Next defect", &[code(KeyCode::F11), key('.')])
+        .separated()
+        .when(with_inspection),
+    command(
+        Inspect,
+        Action::PreviousDefect,
+        "inspect.previous",
+        "Previous defect",
+        &[code(KeyCode::F11).shift(), key(',')],
+    )
+    .when(with_inspection),
     command(Help, Action::Shortcuts, "help.keys", "Keys and mouse", &[code(KeyCode::F1), key('?')]),
     command(Help, Action::About, "help.about", "About Hairline", &[]),
 ];

@@ -5,6 +5,7 @@ use bevy::prelude::*;
 use crate::editor::editing::{Clipboard, Editing};
 use crate::editor::elements::{ActiveFace, ElementSelection};
 use crate::editor::files::Loading;
+use crate::editor::inspection::Findings;
 use crate::editor::object::{FaceChange, Scene, Shown};
 use crate::editor::selection::Selection;
 
@@ -23,6 +24,8 @@ pub struct Situation {
     pub redo: bool,
     /// A file is being read.
     pub loading: bool,
+    /// Edges have been measured.
+    pub inspection: bool,
     /// There is something that no file holds.
     pub unsaved: bool,
     /// There is a face whose trims can be edited.
@@ -48,6 +51,7 @@ impl Situation {
         undo: true,
         redo: true,
         loading: true,
+        inspection: true,
         unsaved: true,
         face: true,
         loops: 1,
@@ -68,6 +72,7 @@ pub(super) fn observe(
     scene: Res<Scene>,
     selection: Res<Selection>,
     loading: Res<Loading>,
+    findings: Res<Findings>,
     editing: Res<Editing>,
     active: Res<ActiveFace>,
     elements: Res<ElementSelection>,
@@ -93,6 +98,7 @@ pub(super) fn observe(
         undo: editing.is_dragging() || editing.history().undo_count() > 0,
         redo: !editing.is_dragging() && editing.history().redo_count() > 0,
         loading: loading.is_active(),
+        inspection: findings.inspection().is_some(),
         unsaved: editing.is_unsaved(),
         face: face.is_some(),
         loops: elements.map_or(0, |e| e.loops().len()),

@@ -1,0 +1,153 @@
+//! Edges in the colours of their gaps, as smooth lines tested against the depth of the model.
+//!
+//! Points come from the main world in `f64` and are taken relative to the eye here, every frame, so that the lines
+//! stay on the surfaces at any zoom. They are drawn a little nearer than they are, or the surfaces they lie on would
+//! cut them.
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+use bevy::render::Extract;
+use bevy::render::renderer::{RenderContext, RenderDevice, RenderQueue, ViewQuery};
+use bevy::render::view::{ViewDepthTexture, ViewTarget};
+use glam::DVec3;
+
+use super::frame::FrameView;
+use super::grid::LineInstance;
+use super::lines::Uniform;
+use crate::editor::inspection::{EdgeLine, EdgeLines};
+use crate::kernel::view::Projection;
+
+/// Most stretches drawn; the last lines are the important ones, so the first are left out.
+const MOST: usize = 400_000;
+/// How much nearer the lines are drawn than they are, in widths of a pixel.
+const NEARER_PX: f64 = 2.5;
+
+/// Pipeline and buffers.
+#[derive(Resource)]
+pub(super) struct Edges {
+    shader: wgpu::ShaderModule,
+    layout: wgpu::BindGroupLayout,
+    group: wgpu::BindGroup,
+    uniform: wgpu::Buffer,
+    instances: Option<wgpu::Buffer>,
+    pipeline: Option<(wgpu::TextureFormat, wgpu::RenderPipeline)>,
+}
+
+/// The lines of this frame.
+#[derive(Resource, Default)]
+pub(super) struct RenderEdges {
+    lines: Arc<Vec<EdgeLine>>,
+    revision: u64,
+}
+
+/// Takes over the lines if they changed.
+pub(super) fn extract(lines: Extract<Res<EdgeLines>>, mut edges: ResMut<RenderEdges>) {
+    if edges.revision != lines.revision {
+        edges.revision = lines.revision;
+        edges.lines = lines.lines.clone();
+    }
+}
+
+/// Makes what does not depend on the target's format.
+pub(super) fn create(mut commands: Commands, device: Res<RenderDevice>) {
+    let device = device.wgpu_device();
+    let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("edges"),
+        source: wgpu::ShaderSource::Wgsl(include_str!("../../../shaders/pass/lines.wgsl").into()),
+    });
+    let (layout, uniform, group) = super::uniform_group(device, "edges", size_of::<Uniform>());
+    commands.insert_resource(Edges { shader, layout, group, uniform, instances: None, pipeline: None });
+}
+
+/// Draws the edges, if there are any.
+pub(super) fn draw(
+    view: ViewQuery<(&ViewTarget, &ViewDepthTexture), With<super::DrawsModel>>,
+    mut edges: ResMut<Edges>,
+    extracted: Res<RenderEdges>,
+    frame: Res<FrameView>,
+    device: Res<RenderDevice>,
+    queue: Res<RenderQueue>,
+    mut ctx: RenderContext,
+) {
+    let instances = instances(&extracted.lines, &frame);
+    if instances.is_empty() {
+        return;
+    }
+    let (target, depth) = view.into_inner();
+    let (device, edges, format) = (device.wgpu_device(), &mut *edges, target.main_texture_format());
+    if edges.pipeline.as_ref().is_none_or(|(f, _)| *f != format) {
+        let spec = super::PipelineSpec {
+            label: "edges",
+            shader: &edges.shader,
+            layout: &edges.layout,
+            buffers: &[LineInstance::layout()],
+            blend: Some(wgpu::BlendState::ALPHA_BLENDING),
+            depth: Some(wgpu::CompareFunction::GreaterEqual),
+            format,
+        };
+        edges.pipeline = Some((format, super::pipeline(device, spec)));
+    }
+    let bytes: &[u8] = bytemuck::cast_slice(&instances);
+    let buffer = match edges.instances.take() {
+        Some(buffer) if buffer.size() >= bytes.len() as u64 => buffer,
+        _ => device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("edges"),
+            size: (bytes.len() as u64).next_power_of_two(),
+            usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        }),
+    };
+    let buffer = edges.instances.insert(buffer);
+    let (_, size) = frame.viewport.physical();
+    queue.write_buffer(&edges.uniform, 0, bytemuck::bytes_of(&Uniform::without_fade(&frame.clip, size)));
+    queue.write_buffer(buffer, 0, bytes);
+    let Some((_, pipeline)) = &edges.pipeline else { return };
+    let mut pass = ctx.command_encoder().begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("edges"),
+        color_attachments: &[Some(super::keep(target.main_texture_view()))],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: depth.view(),
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        }),
+        ..default()
+    });
+    super::confine(&mut pass, &frame, target.main_texture().size());
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(0, &edges.group, &[]);
+    pass.set_vertex_buffer(0, buffer.slice(..));
+    pass.draw(0..6, 0..instances.len() as u32);
+}
+
+/// The stretches relative to the eye.
+fn instances(lines: &[EdgeLine], frame: &FrameView) -> Vec<LineInstance> {
+    let camera = &frame.camera;
+    let (_, _, back) = camera.axes();
+    let (_, size) = frame.viewport.physical();
+    let pixel = 2.0 * camera.half_extent(1.0).y / f64::from(size.y.max(1));
+    let pull = NEARER_PX * pixel / camera.distance().max(f64::MIN_POSITIVE);
+    let place = |p: DVec3| -> [f32; 3] {
+        let relative = p - camera.eye;
+        let nearer = match camera.projection {
+            Projection::Perspective { .. } => relative * (1.0 - pull),
+            Projection::Orthographic { .. } => relative + back * (NEARER_PX * pixel),
+        };
+        nearer.as_vec3().to_array()
+    };
+    let total: usize = lines.iter().map(|l| l.points.len().saturating_sub(1)).sum();
+    let mut skip = total.saturating_sub(MOST);
+    let mut made = Vec::with_capacity(total - skip);
+    for line in lines {
+        let stretches = line.points.len().saturating_sub(1);
+        if stretches <= skip {
+            skip -= stretches;
+            continue;
+        }
+        let color = super::lines::ink(line.colour);
+        let width_px = line.width * frame.viewport.scale_factor;
+        let placed: Vec<[f32; 3]> = line.points.iter().map(|p| place(*p)).collect();
+        made.extend(placed.windows(2).map(|w| LineInstance { start: w[0], end: w[1], color, width_px }));
+    }
+    made
+}
