@@ -1,4 +1,4 @@
-// Straight lines of constant width in pixels, smoothed at their borders: grid and axes of the viewport.
+// Straight lines of constant width in pixels, smoothed at their borders: grid, axes and handles of the viewport.
 // One instance per line, six vertices each. Positions are relative to the eye.
 
 struct View {
@@ -9,7 +9,7 @@ struct View {
   size_px: vec2f,
   // Factor of the (reversed) depth: below 1 is farther than it is.
   depth: f32,
-  padding: f32,
+  opacity: f32,
 }
 
 struct Line {
@@ -75,5 +75,5 @@ fn fragment(corner: Corner) -> @location(0) vec4f {
   let cover = clamp(corner.across.y + 0.5 - abs(corner.across.x), 0.0, 1.0);
   let away = distance(corner.relative, view.fade.xyz) / view.fade.w;
   let fade = 1.0 - smoothstep(0.35, 1.0, away);
-  return vec4f(corner.color.rgb, corner.color.a * cover * fade);
+  return vec4f(corner.color.rgb, corner.color.a * cover * fade * view.opacity);
 }

@@ -18,6 +18,7 @@ pub mod document;
 pub mod editing;
 pub mod elements;
 pub mod files;
+pub mod handles;
 pub mod inspection;
 pub mod object;
 pub mod panels;
@@ -29,6 +30,7 @@ pub mod settings;
 mod startup;
 pub mod theme;
 pub mod tools;
+pub mod uv;
 pub mod viewport;
 
 use bevy::prelude::*;
@@ -86,6 +88,8 @@ impl Plugin for EditorPlugin {
             files::FilesPlugin,
             document::DocumentPlugin,
             camera::CameraPlugin,
+            uv::UvPlugin,
+            handles::HandlesPlugin,
             picking::PickingPlugin { windowed: self.windowed },
             inspection::InspectionPlugin,
             redraw::RedrawPlugin,

@@ -14,6 +14,7 @@ use bevy::winit::{EventLoopProxyWrapper, UpdateMode, WinitSettings, WinitUserEve
 use bevy_egui::{EguiInput, EguiPreUpdateSet, egui};
 
 use super::tools::CommandRequest;
+use super::viewport::Pointer;
 
 /// Wakes the window from any thread.
 #[derive(Resource, Clone, Default)]
@@ -67,9 +68,7 @@ impl Plugin for RedrawPlugin {
             .add_systems(PreStartup, connect)
             .add_systems(
                 PreUpdate,
-                drop_unchanged_modifiers
-                    .after(EguiPreUpdateSet::ProcessInput)
-                    .before(EguiPreUpdateSet::BeginPass),
+                drop_noise.after(EguiPreUpdateSet::ProcessInput).before(EguiPreUpdateSet::BeginPass),
             )
             .add_systems(Last, redraw_after_commands);
     }
@@ -79,13 +78,16 @@ fn connect(proxy: Option<Res<EventLoopProxyWrapper>>, mut waker: ResMut<Waker>) 
     waker.proxy = proxy.map(|p| (**p).clone());
 }
 
-/// Drops reports of modifier keys that repeat the last one.
-fn drop_unchanged_modifiers(mut inputs: Query<&mut EguiInput>, mut last: Local<egui::Modifiers>) {
+/// Drops reports of modifier keys that repeat the last one, and Tab, which is a key of ours: it would move egui's
+/// focus to a button.
+fn drop_noise(mut inputs: Query<&mut EguiInput>, mut last: Local<egui::Modifiers>, pointer: Res<Pointer>) {
+    let typing = pointer.keyboard_taken;
     for mut input in &mut inputs {
         input.events.retain(|event| match event {
             egui::Event::ModifiersChanged(modifiers) => {
                 std::mem::replace(&mut *last, *modifiers) != *modifiers
             }
+            egui::Event::Key { key: egui::Key::Tab, .. } => typing,
             _ => true,
         });
     }

@@ -41,6 +41,19 @@ impl DisplayMode {
     }
 }
 
+/// What of the active face is shown as handles in the 3D view.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Handles {
+    /// Nothing.
+    #[default]
+    None,
+    /// Its trim curves with their control points.
+    Curves,
+    /// The control net of its surface.
+    Surface,
+}
+
 /// The user's choices.
 #[derive(Resource, Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -71,6 +84,13 @@ pub struct Settings {
     /// Whether edges are inspected. Not kept between runs: measuring a large model takes a while.
     #[serde(skip)]
     pub inspection: bool,
+    /// Whether the uv panel is shown.
+    pub uv: bool,
+    /// Whether the uv panel is beside the viewport instead of below it.
+    pub uv_beside: bool,
+    /// What can be dragged in the 3D view.
+    #[serde(skip)]
+    pub handles: Handles,
     /// Files opened lately, latest first.
     pub recent: Vec<PathBuf>,
 }
@@ -90,6 +110,9 @@ impl Default for Settings {
             problems: false,
             autosave_s: 20,
             inspection: false,
+            uv: false,
+            uv_beside: false,
+            handles: Handles::None,
             recent: Vec::new(),
         }
     }
@@ -121,6 +144,12 @@ fn switch(mut requests: MessageReader<CommandRequest>, mut settings: ResMut<Sett
             Action::ToggleHistory => &mut settings.history,
             Action::ToggleProblems => &mut settings.problems,
             Action::ToggleInspection => &mut settings.inspection,
+            Action::ToggleUv => &mut settings.uv,
+            Action::ToggleUvSide => &mut settings.uv_beside,
+            Action::Handles(handles) => {
+                settings.handles = if settings.handles == *handles { Handles::None } else { *handles };
+                continue;
+            }
             Action::Find => {
                 settings.tree = true;
                 continue;

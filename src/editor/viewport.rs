@@ -32,6 +32,10 @@ pub struct Pointer {
     pub position: Option<Vec2>,
     /// Whether the viewport gets it.
     pub in_viewport: bool,
+    /// Whether the canvas of the uv panel gets it.
+    pub in_uv: bool,
+    /// Whether handles are being dragged: keys are for them.
+    pub drags_handle: bool,
     /// Whether a text field takes the keyboard.
     pub keyboard_taken: bool,
     /// Whether a sheet above everything is open: only commands that close it are served.

@@ -10,6 +10,9 @@ mod inspection;
 #[cfg(target_os = "linux")]
 mod screen;
 mod settings;
+mod uv;
+#[cfg(target_os = "linux")]
+mod uv_window;
 #[cfg(target_os = "linux")]
 mod window;
 mod world;

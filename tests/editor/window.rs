@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::screen::{Input, Picture, SIZE, Screen};
 
 /// Part of the screen that is viewport whatever the panels need: left, top, right, bottom.
-const VIEWPORT: (u16, u16, u16, u16) = (300, 80, 900, 850);
+pub const VIEWPORT: (u16, u16, u16, u16) = (300, 80, 900, 850);
 /// Longest wait for anything: software drivers on busy machines take their time.
 const PATIENCE: Duration = Duration::from_secs(120);
 
@@ -20,13 +20,14 @@ const A: u8 = 38;
 const H: u8 = 43;
 const SHIFT: u8 = 50;
 
-struct Editor {
+/// The program in its window, on a screen of its own.
+pub struct Editor {
     process: Child,
-    screen: Screen,
+    pub screen: Screen,
 }
 
 impl Editor {
-    fn start(settings: &Path) -> Self {
+    pub fn start(settings: &Path) -> Self {
         let screen = Screen::start();
         let process = Command::new(env!("CARGO_BIN_EXE_hairline"))
             .env("DISPLAY", &screen.name)
@@ -39,8 +40,19 @@ impl Editor {
         Self { process, screen }
     }
 
+    /// Waits for the window and the demo scene in it.
+    pub fn first_picture(&mut self) -> Picture {
+        self.screen.move_to((SIZE.0 - 40, SIZE.1 - 60));
+        self.wait("a window", |editor| editor.screen.focus().then_some(()));
+        let black = self.screen.picture();
+        let area = usize::from(VIEWPORT.2 - VIEWPORT.0) * usize::from(VIEWPORT.3 - VIEWPORT.1);
+        self.changed("a first picture", &black, area / 2);
+        // The demo scene is read while the window is open already: wait for it, not for the first frame.
+        self.rest(Duration::from_secs(2))
+    }
+
     /// Waits until `done`, looking again and again.
-    fn wait<T>(&mut self, what: &str, mut done: impl FnMut(&mut Self) -> Option<T>) -> T {
+    pub fn wait<T>(&mut self, what: &str, mut done: impl FnMut(&mut Self) -> Option<T>) -> T {
         let started = Instant::now();
         loop {
             if let Some(found) = done(self) {
@@ -61,7 +73,7 @@ impl Editor {
     }
 
     /// Waits until it does nothing for `time`, and tells what the screen shows then.
-    fn rest(&mut self, time: Duration) -> Picture {
+    pub fn rest(&mut self, time: Duration) -> Picture {
         self.wait("rest", |editor| {
             let before = editor.ticks();
             std::thread::sleep(time);
@@ -82,7 +94,7 @@ impl Editor {
     }
 
     /// Waits until at least `pixels` of the viewport differ from `before`; then what it shows at rest.
-    fn changed(&mut self, what: &str, before: &Picture, pixels: usize) -> Picture {
+    pub fn changed(&mut self, what: &str, before: &Picture, pixels: usize) -> Picture {
         self.wait(what, |editor| {
             let now = editor.screen.picture();
             (now.difference(before, VIEWPORT).len() >= pixels).then_some(())
@@ -90,7 +102,7 @@ impl Editor {
         self.rest(Duration::from_millis(500))
     }
 
-    fn key_with(&mut self, modifier: u8, key: u8) {
+    pub fn key_with(&mut self, modifier: u8, key: u8) {
         self.screen.input(Input::KeyDown, modifier);
         self.screen.key(key);
         self.screen.input(Input::KeyUp, modifier);
@@ -132,13 +144,8 @@ fn inside(changed: &[(u16, u16)]) -> (u16, u16) {
 fn the_model_is_drawn_selected_and_left_alone() {
     let settings = tempfile::tempdir().expect("a temporary folder");
     let mut editor = Editor::start(settings.path());
-    editor.screen.move_to((SIZE.0 - 40, SIZE.1 - 60));
-    editor.wait("a window", |editor| editor.screen.focus().then_some(()));
-    let black = editor.screen.picture();
+    let shown = editor.first_picture();
     let area = usize::from(VIEWPORT.2 - VIEWPORT.0) * usize::from(VIEWPORT.3 - VIEWPORT.1);
-    editor.changed("a first picture", &black, area / 2);
-    // The demo scene is read while the window is open already: wait for it, not for the first frame.
-    let shown = editor.rest(Duration::from_secs(2));
 
     // Hiding all faces leaves the background: where the picture changes the model was drawn.
     editor.key_with(CONTROL, A);

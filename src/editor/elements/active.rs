@@ -3,26 +3,49 @@
 use std::sync::Arc;
 
 use bevy::prelude::*;
+use glam::DVec2;
 
+use super::element::PointAddress;
 use super::selection::{ElementRequest, ElementSelection};
 use crate::editor::derive::Derived;
-use crate::editor::object::{DerivedFace, FaceParts, FacePlace, Records};
+use crate::editor::object::{DerivedFace, FacePlace, Records, Scene};
 use crate::editor::selection::Selection;
-use crate::scene::records::FaceRecord;
+use crate::kernel::nurbs::{NurbsCurve2, NurbsSurface};
+use crate::scene::FaceAttributes;
+use crate::scene::edit::FaceId;
+use crate::scene::records::{FaceRecord, LoopRecord};
 
 /// The active face as it is now.
 #[derive(Debug, Clone)]
 pub struct FaceInHand {
     /// Its entity.
     pub entity: Entity,
+    /// Its address in the scene.
+    pub id: FaceId,
     /// Its number, from 1.
     pub number: usize,
-    /// Surface and loops as they are now, drags included.
+    /// Its surface as it is now, drags included.
+    pub surface: Arc<NurbsSurface>,
+    /// Its loops as they are now, in order.
+    pub loops: Vec<Arc<LoopRecord>>,
+    /// Name, colour and the like.
+    pub attributes: Arc<FaceAttributes>,
+    /// The whole record.
     pub record: Arc<FaceRecord>,
-    /// What the record was made from.
-    pub parts: FaceParts,
-    /// What was derived from it; may be a little older than the record.
+    /// What was derived from it; may be a little older.
     pub derived: Option<Arc<Derived>>,
+}
+
+impl FaceInHand {
+    /// A curve, if there is one at that position.
+    pub fn curve(&self, trim_loop: usize, curve: usize) -> Option<&NurbsCurve2> {
+        self.loops.get(trim_loop)?.curves.get(curve)
+    }
+
+    /// A control point, if there is one at that address.
+    pub fn point(&self, (trim_loop, curve, point): PointAddress) -> Option<DVec2> {
+        self.curve(trim_loop, curve)?.points().get(point).copied()
+    }
 }
 
 /// The face that is edited: the one selected last. Written once per frame, after deriving.
@@ -54,31 +77,46 @@ pub(super) fn apply(
     if selection.face != face {
         selection.turn_to(face);
     }
-    let record = active.face.as_ref().filter(|f| Some(f.entity) == face).map(|f| &f.record);
+    let in_hand = active.face.as_ref().filter(|f| Some(f.entity) == face);
     for request in requests.read() {
-        let Some(record) = record else { continue };
-        let known: Vec<_> = request.elements.iter().copied().filter(|e| e.exists_in(record)).collect();
+        let Some(in_hand) = in_hand else { continue };
+        let known: Vec<_> = request.elements.iter().copied().filter(|e| e.exists_in(in_hand)).collect();
         selection.apply(&known, request.mode);
     }
 }
 
-/// Takes over the active face's record and what was derived from it.
+/// Takes over the active face's surface, loops and what was derived from them.
 pub(super) fn observe(
     mut active: ResMut<ActiveFace>,
     mut selection: ResMut<ElementSelection>,
+    scene: Res<Scene>,
     records: Records,
     faces: Query<(&FacePlace, Option<&DerivedFace>)>,
 ) {
     let found = selection.face.and_then(|entity| {
         let (place, derived) = faces.get(entity).ok()?;
         let parts = records.parts(entity)?;
-        let kept = active.face.as_ref().filter(|f| f.entity == entity && f.parts.is_same(&parts));
-        let record = kept.map_or_else(|| Arc::new(parts.to_record()), |f| Arc::clone(&f.record));
-        let derived = derived.map(|d| Arc::clone(&d.0));
-        Some(FaceInHand { entity, number: place.number, record, parts, derived })
+        let same = |f: &FaceInHand| {
+            f.entity == entity
+                && Arc::ptr_eq(&f.surface, &parts.surface)
+                && Arc::ptr_eq(&f.attributes, &parts.attributes)
+                && f.loops.len() == parts.loops.len()
+                && f.loops.iter().zip(&parts.loops).all(|(a, b)| Arc::ptr_eq(a, b))
+        };
+        let kept = active.face.as_ref().filter(|f| same(f)).map(|f| Arc::clone(&f.record));
+        Some(FaceInHand {
+            entity,
+            id: FaceId { model: scene.position(place.model)?, face: place.number.saturating_sub(1) },
+            number: place.number,
+            record: kept.unwrap_or_else(|| Arc::new(parts.to_record())),
+            surface: parts.surface,
+            attributes: parts.attributes,
+            loops: parts.loops,
+            derived: derived.map(|d| Arc::clone(&d.0)),
+        })
     });
     let same_record = match (&found, &active.face) {
-        (Some(a), Some(b)) => a.entity == b.entity && Arc::ptr_eq(&a.record, &b.record),
+        (Some(a), Some(b)) => a.entity == b.entity && a.id == b.id && Arc::ptr_eq(&a.record, &b.record),
         (None, None) => true,
         _ => false,
     };
@@ -90,9 +128,9 @@ pub(super) fn observe(
     if !same_record {
         active.revision += 1;
         if let Some(face) = &found {
-            selection.prune(&face.record);
+            selection.prune(face);
         }
     }
-    active.derived_revision += u64::from(!same_derived || !same_record);
+    active.derived_revision += 1;
     active.face = found;
 }

@@ -1,6 +1,9 @@
 //! The parts of a face that can be picked one by one: loops, curves, control points.
 
-use crate::scene::records::{FaceRecord, LoopRecord};
+use std::borrow::Borrow;
+
+use super::active::FaceInHand;
+use crate::scene::records::LoopRecord;
 
 /// One element of a face, by its position in the face's loops.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -58,7 +61,7 @@ impl Element {
     }
 
     /// Whether `face` has it.
-    pub fn exists_in(self, face: &FaceRecord) -> bool {
+    pub fn exists_in(self, face: &FaceInHand) -> bool {
         let curve = |l: usize, c: usize| face.loops.get(l).and_then(|l| l.curves.get(c));
         match self {
             Self::Loop { trim_loop } => trim_loop < face.loops.len(),
@@ -71,14 +74,15 @@ impl Element {
     }
 
     /// The control points of trim curves that it stands for.
-    pub fn points_of(self, loops: &[LoopRecord]) -> Vec<PointAddress> {
+    pub fn points_of<L: Borrow<LoopRecord>>(self, loops: &[L]) -> Vec<PointAddress> {
         let of_curve = |l: usize, c: usize| {
-            let count = loops.get(l).and_then(|l| l.curves.get(c)).map_or(0, |c| c.points().len());
+            let curve = loops.get(l).and_then(|l| l.borrow().curves.get(c));
+            let count = curve.map_or(0, |c| c.points().len());
             (0..count).map(move |p| (l, c, p))
         };
         match self {
             Self::Loop { trim_loop } => {
-                let curves = loops.get(trim_loop).map_or(0, |l| l.curves.len());
+                let curves = loops.get(trim_loop).map_or(0, |l| l.borrow().curves.len());
                 (0..curves).flat_map(|c| of_curve(trim_loop, c)).collect()
             }
             Self::Curve { trim_loop, curve } => of_curve(trim_loop, curve).collect(),

@@ -1,12 +1,14 @@
 //! Which elements of the active face are selected, and which one is under the pointer.
 
+use std::borrow::Borrow;
 use std::collections::BTreeSet;
 
 use bevy::prelude::*;
 
+use super::active::FaceInHand;
 use super::element::{Element, PointAddress};
 use crate::editor::selection::SelectMode;
-use crate::scene::records::{FaceRecord, LoopRecord};
+use crate::scene::records::LoopRecord;
 
 /// The selected elements of the active face, in order of address.
 #[derive(Resource, Debug, Default)]
@@ -62,20 +64,20 @@ impl ElementSelection {
     }
 
     /// All control points of trim curves that the selection stands for, each once, in order.
-    pub fn points(&self, loops: &[LoopRecord]) -> Vec<PointAddress> {
+    pub fn points<L: Borrow<LoopRecord>>(&self, loops: &[L]) -> Vec<PointAddress> {
         let all: BTreeSet<PointAddress> = self.set.iter().flat_map(|e| e.points_of(loops)).collect();
         all.into_iter().collect()
     }
 
     /// Curves selected as such, or whose loop is: loop and curve, in order.
-    pub fn curves(&self, loops: &[LoopRecord]) -> Vec<(usize, usize)> {
+    pub fn curves<L: Borrow<LoopRecord>>(&self, loops: &[L]) -> Vec<(usize, usize)> {
         let all: BTreeSet<(usize, usize)> = self
             .set
             .iter()
             .flat_map(|e| match *e {
                 Element::Curve { trim_loop, curve } => vec![(trim_loop, curve)],
                 Element::Loop { trim_loop } => {
-                    let count = loops.get(trim_loop).map_or(0, |l| l.curves.len());
+                    let count = loops.get(trim_loop).map_or(0, |l| l.borrow().curves.len());
                     (0..count).map(|c| (trim_loop, c)).collect()
                 }
                 _ => Vec::new(),
@@ -119,7 +121,7 @@ impl ElementSelection {
     }
 
     /// Drops what `face` does not have (any more).
-    pub fn prune(&mut self, face: &FaceRecord) {
+    pub fn prune(&mut self, face: &FaceInHand) {
         let before = self.set.len();
         self.set.retain(|e| e.exists_in(face));
         if self.set.len() != before {

@@ -4,7 +4,7 @@ use bevy_egui::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
 
 /// The icons, each drawn in a square.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Icon {
+pub(in crate::editor) enum Icon {
     Open,
     Fit,
     FitSelection,
@@ -33,10 +33,25 @@ pub(super) enum Icon {
     Properties,
     Report,
     Question,
+    Arrow,
+    Rectangle,
+    Circle,
+    Polyline,
+    Freehand,
+    Knot,
+    Split,
+    Magnet,
+    Intervals,
+    Cells,
+    DockBelow,
+    DockBeside,
+    Curves,
+    Net,
+    UvEditor,
 }
 
 /// Draws `icon` in the middle of `rect`, 16 points wide.
-pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
+pub(in crate::editor) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
     let side = 16.0;
     let origin = rect.center() - vec2(side, side) / 2.0;
     let at = |x: f32, y: f32| origin + vec2(x, y);
@@ -217,6 +232,113 @@ pub(super) fn paint(painter: &Painter, rect: Rect, icon: Icon, color: Color32) {
             circle(8.0, 8.0, 6.3);
             line(&[(6.0, 6.4), (6.5, 5.0), (8.0, 4.4), (9.5, 5.0), (9.9, 6.3), (8.0, 8.0), (8.0, 9.4)]);
             painter.circle_filled(at(8.0, 11.5), 0.9, color);
+        }
+        Icon::Arrow => closed(&[
+            (4.0, 1.5),
+            (4.0, 13.0),
+            (7.0, 10.2),
+            (9.0, 14.6),
+            (11.0, 13.7),
+            (9.0, 9.4),
+            (13.0, 9.2),
+        ]),
+        Icon::Rectangle => {
+            closed(&[(2.5, 4.0), (13.5, 4.0), (13.5, 12.0), (2.5, 12.0)]);
+            fill(&[(1.0, 2.5), (4.0, 2.5), (4.0, 5.5), (1.0, 5.5)], color);
+            fill(&[(12.0, 10.5), (15.0, 10.5), (15.0, 13.5), (12.0, 13.5)], color);
+        }
+        Icon::Circle => {
+            circle(8.0, 8.0, 6.0);
+            painter.circle_filled(at(8.0, 8.0), 1.5, color);
+        }
+        Icon::Polyline => {
+            line(&[(2.0, 12.5), (5.5, 4.0), (10.0, 10.0), (14.0, 3.0)]);
+            for (x, y) in [(2.0, 12.5), (5.5, 4.0), (10.0, 10.0), (14.0, 3.0)] {
+                painter.circle_filled(at(x, y), 1.7, color);
+            }
+        }
+        Icon::Freehand => {
+            let wave = |k: i32| {
+                (1.5 + 0.65 * k as f32, 8.0 - 4.5 * (0.42 * k as f32).sin() * (0.3 + 0.035 * k as f32))
+            };
+            line(&(0..=20).map(wave).collect::<Vec<_>>());
+        }
+        Icon::Knot => {
+            line(&[(1.5, 12.0), (4.5, 7.0), (8.0, 5.2), (11.5, 7.0), (14.5, 12.0)]);
+            line(&[(8.0, 1.5), (8.0, 9.0)]);
+            painter.circle_filled(at(8.0, 5.2), 2.0, color);
+        }
+        Icon::Split => {
+            line(&[(1.5, 12.0), (3.8, 8.0), (6.4, 6.0)]);
+            line(&[(9.6, 6.0), (12.2, 8.0), (14.5, 12.0)]);
+            line(&[(10.2, 2.0), (5.8, 10.0)]);
+        }
+        Icon::Magnet => {
+            let arc = |r: f32| -> Vec<(f32, f32)> {
+                (0..=12)
+                    .map(|k| std::f32::consts::PI * k as f32 / 12.0)
+                    .map(|a| (8.0 - r * a.cos(), 8.0 + r * a.sin()))
+                    .collect()
+            };
+            let mut outline = vec![(2.0, 2.0)];
+            outline.extend(arc(6.0));
+            outline.extend([(14.0, 2.0), (10.5, 2.0)]);
+            outline.extend(arc(2.5).into_iter().rev());
+            outline.push((5.5, 2.0));
+            closed(&outline);
+            line(&[(2.0, 5.0), (5.5, 5.0)]);
+            line(&[(10.5, 5.0), (14.0, 5.0)]);
+        }
+        Icon::Intervals => {
+            closed(&[(2.0, 2.0), (14.0, 2.0), (14.0, 14.0), (2.0, 14.0)]);
+            line(&[(2.0, 6.0), (14.0, 6.0)]);
+            line(&[(2.0, 10.0), (14.0, 10.0)]);
+            line(&[(6.0, 2.0), (6.0, 6.0)]);
+            line(&[(10.0, 6.0), (10.0, 10.0)]);
+            line(&[(5.0, 10.0), (5.0, 14.0)]);
+        }
+        Icon::Cells => {
+            closed(&[(2.0, 2.0), (14.0, 2.0), (14.0, 14.0), (2.0, 14.0)]);
+            line(&[(8.0, 2.0), (8.0, 14.0)]);
+            line(&[(2.0, 8.0), (14.0, 8.0)]);
+            fill(&[(8.0, 8.0), (14.0, 8.0), (14.0, 14.0), (8.0, 14.0)], dim(0.6));
+        }
+        Icon::DockBelow => {
+            closed(&[(2.0, 2.5), (14.0, 2.5), (14.0, 13.5), (2.0, 13.5)]);
+            fill(&[(2.0, 8.5), (14.0, 8.5), (14.0, 13.5), (2.0, 13.5)], dim(0.6));
+        }
+        Icon::DockBeside => {
+            closed(&[(2.0, 2.5), (14.0, 2.5), (14.0, 13.5), (2.0, 13.5)]);
+            fill(&[(8.5, 2.5), (14.0, 2.5), (14.0, 13.5), (8.5, 13.5)], dim(0.6));
+        }
+        Icon::UvEditor => {
+            closed(&[(2.0, 2.5), (14.0, 2.5), (14.0, 13.5), (2.0, 13.5)]);
+            circle(9.2, 8.0, 3.0);
+            painter.circle_filled(at(6.2, 8.0), 1.7, color);
+        }
+        Icon::Curves => {
+            let arch = |k: i32| {
+                let t = k as f32 / 12.0;
+                (2.0 + 12.0 * t, 12.5 - 9.0 * 4.0 * t * (1.0 - t) * 0.9)
+            };
+            line(&(0..=12).map(arch).collect::<Vec<_>>());
+            for (x, y) in [(2.0, 12.5), (8.0, 4.4), (14.0, 12.5)] {
+                fill(
+                    &[(x - 1.8, y - 1.8), (x + 1.8, y - 1.8), (x + 1.8, y + 1.8), (x - 1.8, y + 1.8)],
+                    color,
+                );
+            }
+        }
+        Icon::Net => {
+            for (a, b) in [((2.0, 5.0), (14.0, 3.0)), ((2.0, 9.5), (14.0, 7.5)), ((2.0, 14.0), (14.0, 12.0))]
+            {
+                line(&[a, b]);
+            }
+            for x in [2.0, 8.0, 14.0] {
+                let lift = (x - 2.0) / 6.0;
+                line(&[(x, 5.0 - lift), (x, 14.0 - lift)]);
+            }
+            painter.circle_filled(at(8.0, 8.5), 2.2, color);
         }
     }
 }

@@ -8,7 +8,7 @@ mod command_palette;
 mod format;
 mod help;
 mod history;
-mod icon;
+pub(super) mod icon;
 mod inspection;
 mod menu;
 mod notice;
@@ -43,6 +43,7 @@ use super::selection::{SelectRequest, Selection, VisibilityRequest};
 use super::settings::Settings;
 use super::theme::{self, Palette};
 use super::tools::{Action, CommandRequest, CurrentSituation};
+use super::uv::{self, UvParams};
 use super::viewport::Viewport;
 
 /// Adds the panels.
@@ -165,6 +166,7 @@ fn show(
     mut writes: Writes,
     mut owned: Owned,
     mut inspection: inspection::InspectionState,
+    mut uv: UvParams,
 ) -> Result {
     let ctx = contexts.ctx_mut()?.clone();
     if !theme::is_ready(&ctx) {
@@ -195,6 +197,7 @@ fn show(
     if reads.settings.history {
         history::show(&mut root, &reads, &mut writes);
     }
+    uv::show(&mut root, &mut uv);
     let rect = root.available_rect_before_wrap();
     set_viewport(&mut owned.viewport, rect, windows.single().map_or(1.0, Window::scale_factor), &mut writes);
     inspection::overlay(&root, rect, &reads, &owned.viewport, &inspection);

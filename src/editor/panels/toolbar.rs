@@ -5,7 +5,7 @@ use bevy_egui::egui::{self, Align, Color32, CornerRadius, Frame, Layout, Margin,
 
 use super::icon::{self, Icon};
 use super::{Reads, Writes};
-use crate::editor::settings::DisplayMode;
+use crate::editor::settings::{DisplayMode, Handles};
 use crate::editor::tools::{Action, CommandRequest};
 
 /// Shows the toolbar.
@@ -34,6 +34,10 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes) {
             gap(ui, reads);
             button(ui, Icon::Edges, Action::ToggleEdges, reads, writes);
             button(ui, Icon::Grid, Action::ToggleGrid, reads, writes);
+            gap(ui, reads);
+            button(ui, Icon::UvEditor, Action::ToggleUv, reads, writes);
+            button(ui, Icon::Curves, Action::Handles(Handles::Curves), reads, writes);
+            button(ui, Icon::Net, Action::Handles(Handles::Surface), reads, writes);
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.spacing_mut().item_spacing.x = 2.0;
                 button(ui, Icon::Question, Action::Shortcuts, reads, writes);

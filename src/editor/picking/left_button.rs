@@ -29,18 +29,24 @@ pub struct LeftButton {
     pub(super) strokes: Vec<Stroke>,
 }
 
+/// For each press of the left button in this frame, in order, whether something drawn over the model took it.
+#[derive(Resource, Debug, Default)]
+pub struct PressClaims(pub Vec<bool>);
+
 /// Follows the messages of this frame.
 pub(super) fn follow(
     mut events: MessageReader<WindowEvent>,
     mut left: ResMut<LeftButton>,
     pointer: Res<Pointer>,
     viewport: Res<Viewport>,
+    claims: Res<PressClaims>,
 ) {
     if events.is_empty() && left.strokes.is_empty() {
         return;
     }
     let left = &mut *left;
     left.strokes.clear();
+    let mut claims = claims.0.iter().copied();
     for event in events.read() {
         match event {
             WindowEvent::CursorMoved(moved) => left.position = moved.position,
@@ -49,7 +55,8 @@ pub(super) fn follow(
             WindowEvent::MouseButtonInput(button) if button.button == MouseButton::Left => {
                 if button.state == ButtonState::Pressed {
                     left.held = left.keys;
-                    let ours = pointer.in_viewport && viewport.contains(left.position);
+                    let claimed = claims.next().unwrap_or_default();
+                    let ours = pointer.in_viewport && viewport.contains(left.position) && !claimed;
                     left.down = ours.then_some(left.position);
                 } else if let Some(down) = left.down.take() {
                     left.strokes.push(Stroke { down, up: left.position, held: left.held });

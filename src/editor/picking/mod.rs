@@ -11,7 +11,7 @@ use bevy::prelude::*;
 use glam::{DVec2, DVec3};
 
 use super::EditorSystems;
-pub use left_button::LeftButton;
+pub use left_button::{LeftButton, PressClaims};
 
 /// A point of a face under a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,6 +60,7 @@ impl Plugin for PickingPlugin {
             .init_resource::<super::viewport::Pointer>()
             .init_resource::<super::viewport::Viewport>()
             .init_resource::<LeftButton>()
+            .init_resource::<PressClaims>()
             .add_message::<bevy::window::WindowEvent>()
             .add_systems(
                 Update,

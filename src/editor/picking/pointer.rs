@@ -5,6 +5,7 @@ use bevy::window::PrimaryWindow;
 use bevy_egui::{EguiContexts, egui};
 
 use super::Picker;
+use crate::editor::uv::UvPanel;
 use crate::editor::viewport::{Pointer, Viewport};
 
 /// Decides anew while no button is down; a drag stays where it began.
@@ -12,6 +13,7 @@ pub(super) fn route(
     windows: Query<&Window, With<PrimaryWindow>>,
     buttons: Res<ButtonInput<MouseButton>>,
     viewport: Res<Viewport>,
+    uv: Res<UvPanel>,
     mut contexts: EguiContexts,
     mut pointer: ResMut<Pointer>,
     mut picker: ResMut<Picker>,
@@ -24,15 +26,18 @@ pub(super) fn route(
     now.sheet_open = ctx.as_ref().is_some_and(|ctx| ctx.memory(|m| m.top_modal_layer().is_some()));
     let held_before = buttons.get_pressed().any(|b| !buttons.just_pressed(*b));
     if !held_before {
-        now.in_viewport = now.position.is_some_and(|position| {
+        let free = |position: Vec2| {
             let above = ctx.as_ref().is_some_and(|ctx| {
                 let layer = ctx.layer_id_at(egui::pos2(position.x, position.y));
                 layer.is_some_and(|l| l.order != egui::Order::Background)
                     || ctx.egui_is_using_pointer()
                     || ctx.any_popup_open()
             });
-            viewport.contains(position) && !above
-        });
+            !above
+        };
+        let free_at = now.position.filter(|p| free(*p));
+        now.in_viewport = free_at.is_some_and(|p| viewport.contains(p));
+        now.in_uv = uv.open && free_at.is_some_and(|p| uv.view.contains(p.as_dvec2()));
     }
     pointer.set_if_neq(now);
     let wanted = pointer.position.filter(|_| pointer.in_viewport).map(|p| viewport.pixel(p));

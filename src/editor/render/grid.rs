@@ -26,6 +26,11 @@ pub(super) struct LineInstance {
 }
 
 impl LineInstance {
+    /// A line between two points relative to the eye; colour sRGB encoded, not premultiplied.
+    pub fn new(start: [f32; 3], end: [f32; 3], color: [f32; 4], width_px: f32) -> Self {
+        Self { start, end, color, width_px }
+    }
+
     /// How the buffer is read.
     pub fn layout() -> wgpu::VertexBufferLayout<'static> {
         const ATTRIBUTES: [wgpu::VertexAttribute; 4] =

@@ -33,7 +33,7 @@ pub(super) struct Uniform {
     size_px: [f32; 2],
     /// Factor of the (reversed) depth: below 1 is farther than it is.
     depth: f32,
-    padding: f32,
+    opacity: f32,
 }
 
 impl Uniform {
@@ -44,7 +44,7 @@ impl Uniform {
             fade: [0.0, 0.0, 0.0, f32::MAX],
             size_px: [size.x as f32, size.y as f32],
             depth: 1.0,
-            padding: 0.0,
+            opacity: 1.0,
         }
     }
 }
@@ -107,7 +107,7 @@ pub(super) fn draw(
         fade: fade.to_array(),
         size_px: [size.x as f32, size.y as f32],
         depth: BEHIND,
-        padding: 0.0,
+        opacity: 1.0,
     };
     queue.write_buffer(&lines.uniform, 0, bytemuck::bytes_of(&uniform));
     queue.write_buffer(&lines.instances, 0, bytemuck::cast_slice(&grid.lines[..count]));

@@ -10,6 +10,7 @@ mod edges;
 mod faces;
 mod frame;
 mod grid;
+mod handles;
 mod highlight;
 mod lines;
 mod model;
@@ -54,6 +55,7 @@ impl Plugin for RenderPlugin {
             .init_resource::<frame::FrameView>()
             .init_resource::<faces::RenderFaces>()
             .init_resource::<edges::RenderEdges>()
+            .init_resource::<handles::ExtractedHandles>()
             .init_resource::<Waker>()
             .add_systems(
                 RenderStartup,
@@ -64,12 +66,24 @@ impl Plugin for RenderPlugin {
                     model::create,
                     highlight::create,
                     pick::create,
+                    handles::create,
                 ),
             )
-            .add_systems(ExtractSchedule, (frame::extract, faces::extract, edges::extract, mark))
+            .add_systems(
+                ExtractSchedule,
+                (frame::extract, faces::extract, edges::extract, handles::extract, mark),
+            )
             .add_systems(
                 Core3d,
-                (backdrop::draw, model::draw, highlight::draw, pick::copy, lines::draw, edges::draw)
+                (
+                    backdrop::draw,
+                    model::draw,
+                    highlight::draw,
+                    pick::copy,
+                    lines::draw,
+                    edges::draw,
+                    handles::draw,
+                )
                     .chain()
                     .after(main_opaque_pass_3d)
                     .before(main_transparent_pass_3d)

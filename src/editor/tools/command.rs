@@ -8,7 +8,7 @@ use bevy::prelude::Message;
 use super::edit_action::EditAction;
 use super::key::Shortcut;
 use super::situation::Situation;
-use crate::editor::settings::{DisplayMode, Settings};
+use crate::editor::settings::{DisplayMode, Handles, Settings};
 use crate::kernel::view::StandardView;
 
 /// What a command does. Each capability listens for its own.
@@ -48,6 +48,9 @@ pub enum Action {
     ToggleInspection,
     NextDefect,
     PreviousDefect,
+    ToggleUv,
+    ToggleUvSide,
+    Handles(Handles),
     Display(DisplayMode),
     ToggleEdges,
     ToggleGrid,
@@ -283,6 +286,20 @@ const PLAIN: &[Command] = &[
     command(View, Action::ToggleTree, "view.tree", "Model tree", &[key('t')]).separated().checked(|s| s.tree),
     command(View, Action::ToggleProperties, "view.properties", "Properties", &[key('n')])
         .checked(|s| s.properties),
+    command(View, Action::ToggleUv, "view.uv", "UV editor", &[code(KeyCode::Tab), key('u').shift()])
+        .checked(|s| s.uv),
+    command(View, Action::ToggleUvSide, "view.uv_beside", "UV editor beside the view", &[])
+        .checked(|s| s.uv_beside),
+    command(View, Action::Handles(Handles::Curves), "view.handles_curves", "Trim curves in 3D", &[key('q')])
+        .checked(|s| s.handles == Handles::Curves),
+    command(
+        View,
+        Action::Handles(Handles::Surface),
+        "view.handles_surface",
+        "Surface points in 3D",
+        &[key('v')],
+    )
+    .checked(|s| s.handles == Handles::Surface),
     command(View, Action::ToggleReport, "view.report", "Import report", &[key('r')]).checked(|s| s.report),
     command(View, Action::ToggleHistory, "view.history", "History", &[key('y')]).checked(|s| s.history),
     command(View, Action::ToggleProblems, "view.problems", "Problems", &[code(KeyCode::F3)])
@@ -374,5 +391,10 @@ pub const MOUSE_HELP: &[(&str, &str)] = &[
     ("Shift + drag", "Pan (with middle, right or Alt + left)"),
     ("Wheel", "Zoom to the pointer"),
     ("Cube", "Turn to the view of the face, edge or corner clicked"),
+    ("Drag a handle", "Move a control point, curve or loop, in the UV editor or on the surface"),
+    ("Shift / Ctrl while dragging", "Keep to 45° / turn snapping round"),
+    ("X, Y, Z while dragging", "Keep a surface point to that axis"),
+    ("Double click on a curve", "Select its loop"),
+    ("Right click in the UV editor", "Menu of what is there"),
     ("Drop files", "Open them; with Shift add them to the scene"),
 ];

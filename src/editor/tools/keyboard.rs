@@ -6,6 +6,7 @@ use bevy::window::WindowEvent;
 use super::command::{Action, COMMANDS, Command, CommandRequest};
 use super::key::Modifiers;
 use super::situation::CurrentSituation;
+use crate::editor::uv;
 use crate::editor::viewport::{Pointer, Viewport};
 
 /// What is followed from event to event, across frames.
@@ -50,6 +51,13 @@ pub(super) fn press(
         hands.held.follow(press.key_code, press.state);
         let typing = pointer.keyboard_taken || (on_panel && !hands.held.ctrl && !hands.held.alt);
         if !press.state.is_pressed() || press.repeat || typing {
+            continue;
+        }
+        if pointer.drags_handle {
+            continue;
+        }
+        // Over the uv panel its own keys come first; the panel follows them itself.
+        if pointer.in_uv && uv::input::panel_key(&press.logical_key, press.key_code, hands.held).is_some() {
             continue;
         }
         let command = COMMANDS

@@ -6,6 +6,7 @@ mod curve;
 pub mod decomposition;
 pub mod editing;
 pub mod elevation;
+pub mod freehand;
 pub mod knots;
 pub mod refinement;
 mod serial;

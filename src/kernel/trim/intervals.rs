@@ -5,7 +5,11 @@
 //! segments lie entirely to the right and which ones have to be asked. A query is two binary searches and
 //! P1's bisection with early out (no fat bounds). Memory grows with segments times intervals.
 
+mod cells;
+
 use glam::{DVec2, Vec2};
+
+pub use cells::IntervalCell;
 
 use super::pieces::{Piece, PieceList};
 use super::segment::SegmentSet;

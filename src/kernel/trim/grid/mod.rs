@@ -6,12 +6,14 @@ pub mod build;
 pub mod classify;
 pub mod frame;
 pub mod layout;
+mod leaves;
 mod refine;
 pub mod span;
 
 pub use build::GridOptions;
 pub use classify::classify;
 pub use layout::{GridHeader, GridView};
+pub use leaves::GridLeaf;
 
 use glam::Vec2;
 
