@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 /// Exit codes as `hairline --help` documents them.
-const DONE: i32 = 0;
-const NOT_WRITTEN: i32 = 1;
-const BAD_INPUT: i32 = 2;
+pub const DONE: i32 = 0;
+pub const NOT_WRITTEN: i32 = 1;
+pub const BAD_INPUT: i32 = 2;
 const LACKING: i32 = 3;
 
 fn hairline() -> Command {
@@ -17,7 +17,7 @@ fn hairline() -> Command {
     command
 }
 
-fn run(arguments: &[&str], input: &str) -> (i32, String, String) {
+pub fn run(arguments: &[&str], input: &str) -> (i32, String, String) {
     let mut child = hairline()
         .args(arguments)
         .stdin(Stdio::piped())
@@ -38,7 +38,7 @@ fn finished(output: Output) -> (i32, String, String) {
     (output.status.code().expect("no signal"), stdout, stderr)
 }
 
-fn fails(arguments: &[&str], code: i32, hint: &str) {
+pub fn fails(arguments: &[&str], code: i32, hint: &str) {
     let (found, stdout, stderr) = run(arguments, "");
     assert_eq!(found, code, "{arguments:?}: {stderr}");
     assert!(stderr.contains(hint), "{arguments:?}: {stderr}");

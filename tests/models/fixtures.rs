@@ -10,7 +10,7 @@ use hairline::exchange::iges::{self, ReadError};
 use hairline::exchange::report::{ImportReport, Remark, Severity};
 use hairline::kernel::face::Side;
 use hairline::kernel::query::{face_area, face_bounds};
-use hairline::scene::records::{FaceRecord, ModelRecord};
+use hairline::scene::records::{FaceRecord, LoopRole, ModelRecord};
 
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/models/data").join(name).with_extension("igs")
@@ -93,6 +93,15 @@ fn planes_are_bounded_by_their_own_curve() {
     let face = only_face(name);
     assert_area(name, &face, 64.0);
     assert_box(name, &face, [1.0, 1.0, 2.0], [9.0, 9.0, 2.0]);
+}
+
+#[test]
+fn planes_have_holes_by_association() {
+    let name = "plane_108_hole";
+    let face = only_face(name);
+    assert_area(name, &face, 58.0);
+    let roles: Vec<_> = face.loops.iter().map(|l| l.role).collect();
+    assert_eq!(roles, [LoopRole::Outer, LoopRole::Inner]);
 }
 
 #[test]

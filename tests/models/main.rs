@@ -3,6 +3,7 @@
 
 mod areas;
 mod cli;
+mod convert;
 mod export;
 mod fixtures;
 mod iges_truth;

@@ -62,8 +62,10 @@ fn reordered(pieces: &[Piece]) -> Option<Vec<usize>> {
     let mut left: Vec<usize> = (1..pieces.len()).collect();
     while !left.is_empty() {
         let last = order[order.len() - 1];
-        // The next piece of the file wins among equals; otherwise the nearest.
-        let next = (0..left.len()).min_by(|a, b| gap(last, left[*a]).total_cmp(&gap(last, left[*b])))?;
+        // The next piece of the file wins when it follows; otherwise the nearest.
+        let follows = left.iter().position(|k| *k == last + 1).filter(|k| gap(last, left[*k]) <= MET);
+        let nearest = || (0..left.len()).min_by(|a, b| gap(last, left[*a]).total_cmp(&gap(last, left[*b])));
+        let next = follows.or_else(nearest)?;
         if !(gap(last, left[next]) <= MET) {
             return None;
         }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::error::{EntityError, ReadError};
 use super::store::{Reader, Store};
 use super::structure::{self, Root};
-use super::trimmed144::{Trimmed, own_boundary, read143, read144};
+use super::trimmed144::{Trimmed, own_boundary, plane_holes, read143, read144};
 use super::{Progress, appearance, brep, surface};
 use crate::exchange::boundary::RawLoop;
 use crate::exchange::boundary::finish::finish;
@@ -81,7 +81,8 @@ fn face(reader: &mut Reader<'_, '_>, root: &Root) -> Result<FaceRecord, EntityEr
                 510 => brep::read510(reader, &mut opened, root.place)?,
                 _ => {
                     let surface = surface::read_opened(reader, &mut opened, root.place)?;
-                    let loops = own_boundary(reader, &surface).into_iter().collect();
+                    let mut loops: Vec<RawLoop> = own_boundary(reader, &surface).into_iter().collect();
+                    loops.extend(plane_holes(reader, &surface, &root.holes, root.place));
                     (surface, loops)
                 }
             };

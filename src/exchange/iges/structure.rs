@@ -30,6 +30,8 @@ pub(crate) struct Root {
     pub part: Option<usize>,
     /// Whether its shell uses it back to front.
     pub reversed: bool,
+    /// Planes (108, form -1) whose bounding curves are holes in it.
+    pub holes: Vec<usize>,
     /// How often the same entity stands in the model before this one.
     pub instance: u32,
 }
@@ -72,6 +74,7 @@ pub(crate) fn read(store: &Store<'_>) -> Structure {
     let mut members = BTreeMap::new();
     let mut used = BTreeSet::new();
     let mut defined = BTreeSet::new();
+    let mut holes: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (index, entry) in store.entries.iter().enumerate() {
         reader.refresh();
         let pointer = Store::number(index) as i64;
@@ -84,6 +87,15 @@ pub(crate) fn read(store: &Store<'_>) -> Structure {
                     }
                     members.insert(index, (list, name));
                 }
+                Err(error) => reader.remark(index, Severity::Error, format!("skipped: {error}")),
+            }
+        } else if entry.kind == 402 && entry.form == 9 {
+            match reader.open(pointer, "structure", perforation) {
+                Ok(Some((plane, list))) => {
+                    used.extend(&list);
+                    holes.entry(plane).or_default().extend(list);
+                }
+                Ok(None) => {}
                 Err(error) => reader.remark(index, Severity::Error, format!("skipped: {error}")),
             }
         } else if is_face(entry.kind) || entry.kind == 140 {
@@ -127,6 +139,7 @@ pub(crate) fn read(store: &Store<'_>) -> Structure {
                 place: DAffine3::IDENTITY,
                 part: None,
                 reversed: false,
+                holes: Vec::new(),
                 instance: 0,
             });
         }
@@ -143,6 +156,9 @@ pub(crate) fn read(store: &Store<'_>) -> Structure {
     }
     roots.retain(|r| is_face(store.entries[r.index].kind) || !used.contains(&r.index));
     roots.sort_by_key(|r| r.index);
+    for root in &mut roots {
+        root.holes = holes.get(&root.index).cloned().unwrap_or_default();
+    }
     for k in 1..roots.len() {
         if roots[k].index == roots[k - 1].index {
             roots[k].instance = roots[k - 1].instance + 1;
@@ -160,7 +176,7 @@ impl Builder<'_, '_, '_> {
             return;
         }
         if is_face(kind) || surface::is_surface(kind) {
-            self.roots.push(Root { index, place, part, reversed, instance: 0 });
+            self.roots.push(Root { index, place, part, reversed, holes: Vec::new(), instance: 0 });
             return;
         }
         if !is_container(kind) || self.path.contains(&index) {
@@ -269,6 +285,24 @@ fn contents(
     }
     let property = appearance::name_property(reader, &mut opened.args);
     Ok((members, property.or(name).or(label)))
+}
+
+/// A plane and the planes that are holes in it (single parent associativity, 402 form 9); `None` when it
+/// is about something else.
+fn perforation(
+    reader: &mut Reader<'_, '_>,
+    mut opened: Opened<'_>,
+) -> Result<Option<(usize, Vec<usize>)>, EntityError> {
+    let args = &mut opened.args;
+    args.skip(1); // number of parents: one
+    let count = args.count("number of children", 1)?;
+    let plane = reader.store.index(args.required("parent")?, "parent")?;
+    let mut holes = Vec::with_capacity(count);
+    for _ in 0..count {
+        holes.push(reader.store.index(args.required("child")?, "child")?);
+    }
+    let planes = holes.iter().chain([&plane]).all(|i| reader.store.entries[*i].kind == 108);
+    Ok(planes.then_some((plane, holes)))
 }
 
 /// Leaves out parts without faces.

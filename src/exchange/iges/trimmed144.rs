@@ -76,6 +76,27 @@ pub(crate) fn own_boundary(reader: &mut Reader<'_, '_>, surface: &Surface) -> Op
     loops.pop()
 }
 
+/// Holes in a plane: the bounding curves of other planes (108, form -1).
+pub(crate) fn plane_holes(
+    reader: &mut Reader<'_, '_>,
+    surface: &Surface,
+    holes: &[usize],
+    outer: DAffine3,
+) -> Vec<RawLoop> {
+    let mut loops = Vec::new();
+    for hole in holes {
+        let result = reader.open(Store::number(*hole) as i64, "hole", |reader, mut opened| {
+            let own = outer * transform124::transform(reader, opened.entry.transform, reader.millimetres())?;
+            opened.args.skip(4); // the plane, which is the same
+            let pointer = opened.args.required("bounding curve")?;
+            let segment = Segment::read(reader, opened.index, &[], Some(pointer), own)?;
+            boundary(reader, opened.index, surface, &[segment], LoopRole::Inner)
+        });
+        keep(reader, surface.index, "hole", result, &mut loops);
+    }
+    loops
+}
+
 fn keep(
     reader: &mut Reader<'_, '_>,
     index: usize,

@@ -249,6 +249,11 @@ impl Carrier {
 }
 
 impl SplineCarrier {
+    /// Periods in u and v, where the surface closes.
+    pub fn periods(&self) -> [Option<f64>; 2] {
+        self.periods
+    }
+
     /// Point and first derivatives; where the surface is closed parameters may run past the ends.
     pub fn jet(&self, uv: DVec2) -> [DVec3; 3] {
         let uv = self.wrapped(uv);

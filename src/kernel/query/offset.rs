@@ -10,20 +10,27 @@ use crate::kernel::nurbs::{KnotVector, NurbsSurface};
 
 /// Spans per direction at most.
 const MOST_SPANS: usize = 128;
+/// Halving must bring the error down to this part of it, or the surface is too wild for the grid.
+const GAIN: f64 = 0.7;
+/// Halvings without gain that are forgiven.
+const STALLS: u32 = 3;
 
 /// `surface` moved by `distance` along `du x dv`, to `tolerance` (model units): the surface, over the
 /// same parameters, and the largest error found. `None` where the normal vanishes.
 pub fn offset(surface: &NurbsSurface, distance: f64, tolerance: f64) -> Option<(NurbsSurface, f64)> {
     let mut us = surface.knots_u().breaks();
     let mut vs = surface.knots_v().breaks();
+    let (mut before, mut stalls) = (f64::INFINITY, 0);
     loop {
         let result = hermite(surface, distance, &us, &vs)?;
         let (error_u, error_v) = errors(surface, &result, distance, &us, &vs);
         let error = error_u.max(error_v);
         let full = us.len().max(vs.len()) > MOST_SPANS / 2;
-        if error <= tolerance || full {
+        stalls += u32::from(error > GAIN * before);
+        if error <= tolerance || full || stalls > STALLS {
             return Some((result, error));
         }
+        before = error;
         if error_u > 0.25 * error {
             us = halved(&us);
         }

@@ -59,27 +59,41 @@ fn nonlinear(c: f64) -> f64 {
     if c <= 0.04045 / 12.92 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// Gives an entity the colour, level and name of `face`.
-pub(crate) fn dress(
+/// Colour, level and name that entities of one face share.
+pub(crate) struct Look<'a> {
+    colour: Colour,
+    level: i64,
+    name: Option<(&'a str, Option<Link>)>,
+}
+
+/// How `face` looks; its name becomes a property in `batch`.
+pub(crate) fn look<'a>(
     batch: &mut Batch,
-    entity: &mut Entity,
-    face: &FaceRecord,
+    face: &'a FaceRecord,
     palette: &Palette,
     remarks: &mut Remarks,
-) {
-    if let Some(colour) = face.colour {
-        entity.colour = palette.colours.get(&colour.map(f32::to_bits)).copied().unwrap_or_default();
-    }
-    match face.layer {
-        Some(level @ 1..=MOST_LEVEL) => entity.level = i64::from(level),
+) -> Look<'a> {
+    let colour = face.colour.and_then(|c| palette.colours.get(&c.map(f32::to_bits)).copied());
+    let level = match face.layer {
+        Some(level @ 1..=MOST_LEVEL) => i64::from(level),
         Some(level) => {
             remarks.add(Severity::Warning, format!("level {level} is not a level of IGES and is left out"));
+            0
         }
-        None => {}
-    }
-    if let Some(text) = &face.name {
-        let property = property(batch, text);
-        label(entity, text, property);
+        None => 0,
+    };
+    let name = face.name.as_deref().map(|name| (name, property(batch, name)));
+    Look { colour: colour.unwrap_or_default(), level, name }
+}
+
+impl Look<'_> {
+    /// Gives it to an entity, whose own parameters must be complete.
+    pub(crate) fn dress(&self, entity: &mut Entity) {
+        entity.colour = self.colour;
+        entity.level = self.level;
+        if let Some((name, property)) = self.name {
+            label(entity, name, property);
+        }
     }
 }
 

@@ -2,24 +2,34 @@
 //!
 //! A boundary is written in the surface's parameters, which is what counts, and as curves in space for
 //! those who want them: exact where they can be, else fitted. Loops of more than one curve are
-//! composites (102).
+//! composites (102). A face that falls into parts becomes one trimmed surface for each, on one surface.
+
+use glam::DVec3;
 
 use super::appearance::{self, Palette};
 use super::deck::{Batch, Entity, Status};
 use super::list::{Field, Link};
-use super::{ExportRemark, WriteOptions, spline};
+use super::regions::{Region, regions};
+use super::seam::{is_border_of_closed, moved_seam};
+use super::{ExportRemark, WriteOptions, number, spline};
+use crate::exchange::boundary::{bounds, end, start};
 use crate::exchange::report::Severity;
+use crate::kernel::nurbs::NurbsCurve3;
 use crate::kernel::query::{SplineCarrier, lift};
-use crate::scene::records::{FaceRecord, LoopRecord, LoopRole};
+use crate::scene::records::{FaceRecord, LoopRecord};
 
-/// How far curves in space may be off, in parts of the face's size and at most in millimetres.
-const FIT: (f64, f64) = (1e-7, 1e-5);
+/// How far curves in space may be off, in parts of the face's size and at most in millimetres: as far as
+/// makes no difference to any system that reads them, since the pcurves count.
+const FIT: (f64, f64) = (1e-6, 1e-4);
 
-/// A face as entities, the last of which is the face itself.
+/// Gaps in a loop above this part of its extent are told.
+const OPEN: f64 = 1e-6;
+
+/// A face as entities.
 pub(crate) struct FaceBatch {
     pub batch: Batch,
-    /// The face itself.
-    pub face: Link,
+    /// The face itself, or the parts that it falls into.
+    pub faces: Vec<Link>,
     pub remarks: Vec<ExportRemark>,
 }
 
@@ -31,35 +41,80 @@ pub(crate) fn face(
     member: bool,
     options: &WriteOptions,
 ) -> FaceBatch {
-    let mut batch = Batch::default();
+    let mut made = FaceBatch { batch: Batch::default(), faces: Vec::new(), remarks: Vec::new() };
     let mut remarks = Remarks { face: number, list: Vec::new() };
     let unit = options.unit.millimetres;
     let status = if member { Status::Member } else { Status::Independent };
-    let fields = spline::surface128(&face.surface, unit);
-    let loops = in_order(&face.loops, &mut remarks);
-    let mut entity = if loops.is_empty() {
-        Entity::new(128, status, fields)
-    } else {
-        let surface = batch.push(Entity::new(128, Status::Part, fields));
-        let carrier = SplineCarrier::new(face.surface.clone());
-        let has_outer = loops[0].role != LoopRole::Inner;
-        let boundaries: Vec<Link> =
-            loops.iter().map(|l| boundary142(&mut batch, surface, &carrier, l, options)).collect();
-        let inner = boundaries.len() - usize::from(has_outer);
-        let mut fields =
-            vec![Field::Pointer(surface), Field::Integer(i64::from(has_outer)), Field::Integer(inner as i64)];
-        if !has_outer {
-            fields.push(Field::Integer(0));
-        }
-        fields.extend(boundaries.into_iter().map(Field::Pointer));
-        Entity::new(144, status, fields)
+    let loops: Vec<&LoopRecord> = face.loops.iter().filter(|l| !l.curves.is_empty()).collect();
+    if loops.len() < face.loops.len() {
+        remarks.add(Severity::Warning, "loops without curves are left out");
+    }
+    for (k, _) in face.loops.iter().enumerate().filter(|(_, l)| is_open(l)) {
+        let message = format!("loop {} is open; readers will close it each in their own way", k + 1);
+        remarks.add(Severity::Warning, message);
+    }
+    let look = appearance::look(&mut made.batch, face, palette, &mut remarks);
+    let mut add = |batch: &mut Batch, mut entity: Entity| {
+        look.dress(&mut entity);
+        made.faces.push(batch.push(entity));
     };
-    appearance::dress(&mut batch, &mut entity, face, palette, &mut remarks);
+    if loops.is_empty() {
+        add(&mut made.batch, Entity::new(128, status, spline::surface128(&face.surface, unit)));
+    } else {
+        let mut carrier = SplineCarrier::new(face.surface.clone());
+        if let Some(surface) = moved_seam(&carrier, &loops) {
+            remarks.add(Severity::Note, "the seam of its surface was moved to where its loops begin");
+            carrier = SplineCarrier::new(surface);
+        }
+        let fields = spline::surface128(carrier.surface(), unit);
+        let surface = made.batch.push(Entity::new(128, Status::Part, fields));
+        let parts = regions(&carrier, &loops);
+        if parts.len() > 1 {
+            let message = format!("it has {} parts, each of which is a face of its own in IGES", parts.len());
+            remarks.add(Severity::Note, message);
+        }
+        for part in parts {
+            let fields = trimmed144(&mut made.batch, surface, &carrier, &part, options);
+            add(&mut made.batch, Entity::new(144, status, fields));
+        }
+    }
     if face.reversed {
         remarks.add(Severity::Note, "its outside is the back of its surface, which a 144 cannot say");
     }
-    let face = batch.push(entity);
-    FaceBatch { batch, face, remarks: remarks.list }
+    made.remarks = remarks.list;
+    made
+}
+
+/// Whether a curve of a loop ends where no curve begins, by more than rounding.
+fn is_open(trim: &LoopRecord) -> bool {
+    let Some((min, max)) = bounds(&trim.curves) else { return false };
+    let count = trim.curves.len();
+    (0..count).any(|k| {
+        let gap = start(&trim.curves[(k + 1) % count]) - end(&trim.curves[k]);
+        gap.abs().max_element() > OPEN * (max - min).max_element()
+    })
+}
+
+/// Parameters of a trimmed surface.
+fn trimmed144(
+    batch: &mut Batch,
+    surface: Link,
+    carrier: &SplineCarrier,
+    part: &Region<'_>,
+    options: &WriteOptions,
+) -> Vec<Field> {
+    let outer = part.outer.filter(|l| !is_border_of_closed(carrier, l));
+    let outer = outer.map(|l| boundary142(batch, surface, carrier, l, options));
+    let inner: Vec<Link> =
+        part.inner.iter().map(|l| boundary142(batch, surface, carrier, l, options)).collect();
+    let mut fields = vec![
+        Field::Pointer(surface),
+        Field::Integer(i64::from(outer.is_some())),
+        Field::Integer(inner.len() as i64),
+        outer.map_or(Field::Integer(0), Field::Pointer),
+    ];
+    fields.extend(inner.into_iter().map(Field::Pointer));
+    fields
 }
 
 /// Collects what is worth telling about one face.
@@ -72,30 +127,6 @@ impl Remarks {
     pub(crate) fn add(&mut self, severity: Severity, message: impl Into<String>) {
         self.list.push(ExportRemark { severity, face: self.face, message: message.into() });
     }
-}
-
-/// The loops with curves, the outer one first.
-fn in_order<'a>(loops: &'a [LoopRecord], remarks: &mut Remarks) -> Vec<&'a LoopRecord> {
-    let mut list: Vec<&LoopRecord> = loops.iter().filter(|l| !l.curves.is_empty()).collect();
-    if list.len() < loops.len() {
-        remarks.add(Severity::Warning, "loops without curves are left out");
-    }
-    if let Some(position) = list.iter().position(|l| l.role == LoopRole::Outer) {
-        list[..=position].rotate_right(1);
-    } else if list.iter().any(|l| l.role == LoopRole::Unknown)
-        && let Some(position) = widest(&list)
-    {
-        list[..=position].rotate_right(1);
-    }
-    list
-}
-
-/// The loop with the largest box.
-fn widest(loops: &[&LoopRecord]) -> Option<usize> {
-    let extent = |l: &LoopRecord| {
-        crate::exchange::boundary::bounds(&l.curves).map_or(0.0, |(min, max)| (max - min).element_product())
-    };
-    (0..loops.len()).rev().max_by(|a, b| extent(loops[*a]).total_cmp(&extent(loops[*b])))
 }
 
 /// A boundary: curve on a parametric surface.
@@ -112,13 +143,11 @@ fn boundary142(
     let tolerance = (FIT.0 * size).min(FIT.1);
     let mut space = Vec::new();
     if options.space_curves {
-        for curve in &trim.curves {
+        for lifted in trim.curves.iter().filter_map(|c| lift(carrier, c, tolerance)) {
+            let curve = if lifted.deviation == 0.0 { lifted.curve } else { coarse(&lifted.curve, tolerance) };
             // What shrinks to a point (at a pole) is no curve in space.
-            match lift(carrier, curve, tolerance) {
-                Some(l) if l.curve.points().iter().any(|p| *p != l.curve.points()[0]) => {
-                    space.push(spline::space_curve(batch, &l.curve, options.unit.millimetres));
-                }
-                _ => {}
+            if curve.points().iter().any(|p| *p != curve.points()[0]) {
+                space.push(spline::space_curve(batch, &curve, options.unit.millimetres));
             }
         }
     }
@@ -134,6 +163,12 @@ fn boundary142(
             Field::Integer(1), // the curve in parameters counts
         ],
     ))
+}
+
+/// A fitted curve without the digits that say nothing.
+fn coarse(curve: &NurbsCurve3, tolerance: f64) -> NurbsCurve3 {
+    let step = 10f64.powf((1e-3 * tolerance).log10().floor().min(-1.0));
+    curve.map_points(|p: DVec3| DVec3::from_array(p.to_array().map(|x| number::rounded(x, step))))
 }
 
 /// One curve, or a composite (102) of several.

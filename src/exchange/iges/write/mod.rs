@@ -3,7 +3,8 @@
 //! Each face becomes a trimmed surface (144) with its boundaries (142) in the surface's parameters and in
 //! space, an untrimmed one a plain surface (128). Every number of surfaces and pcurves is written so that
 //! it reads back bit for bit (in millimetres; other units are a division away). Names, colours, levels
-//! and parts travel as 406, 314, the level field and 402. The result depends on the model and the options
+//! and parts travel as 406, 314, the level field and 402. Faces that IGES has no single entity for
+//! (islands in holes) come apart, which the remarks say. The result depends on the model and the options
 //! alone: no time, no order of threads.
 //!
 //! Source: "Initial Graphics Exchange Specification IGES 5.3", US PRO 1996.
@@ -15,6 +16,8 @@ mod global;
 mod group;
 mod list;
 mod number;
+mod regions;
+mod seam;
 mod spline;
 
 use rayon::prelude::*;
@@ -99,11 +102,17 @@ pub fn write(
             .enumerate()
             .map(|(i, f)| face::face(k * CHUNK + i + 1, f, &palette, f.part.is_some(), options))
             .collect();
-        let links: Vec<_> = made.iter().map(|f| f.face).collect();
-        let (batches, told): (Vec<Batch>, Vec<_>) = made.into_iter().map(|f| (f.batch, f.remarks)).unzip();
-        remarks.extend(told.into_iter().flatten());
+        let mut batches: Vec<Batch> = Vec::with_capacity(made.len());
+        let mut links = Vec::with_capacity(made.len());
+        for (face, made) in chunk.iter().zip(made) {
+            batches.push(made.batch);
+            links.push((made.faces, face.part));
+            remarks.extend(made.remarks);
+        }
         let firsts = deck.append(&batches)?;
-        entries.extend(links.iter().zip(firsts).zip(chunk).map(|((l, first), f)| (l.number(first), f.part)));
+        for ((faces, part), first) in links.into_iter().zip(firsts) {
+            entries.extend(faces.into_iter().map(|link| (link.number(first), part)));
+        }
     }
     group::groups(&mut deck, &model.parts, &entries)?;
     Ok((deck.finish(&global::start(), &global), remarks))
