@@ -18,6 +18,7 @@ Examples:
   hairline render part.igs -o part.png --view top --samples 16
   hairline info part.igs --json | jq '.faces[0]'
   printf '1 0.5 0.5\\n' | hairline classify part.igs
+  hairline edit part.igs --script edits.json -o part.hairline
   hairline convert part.igs part-in-inches.igs --unit in
   hairline bench classify
 
@@ -65,6 +66,8 @@ pub enum Command {
     Classify(ClassifyArguments),
     /// Write a model in another format, with its trims, names, colours, levels and parts.
     Convert(ConvertArguments),
+    /// Apply a script of edits to a model or scene.
+    Edit(EditArguments),
     /// Measure speed and print tables.
     Bench(BenchArguments),
 }
@@ -166,6 +169,44 @@ pub struct ConvertArguments {
     pub unit: Unit,
 }
 
+/// `hairline edit`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = r#"Examples:
+  hairline edit part.igs --script edits.json -o part.hairline
+  hairline edit part.hairline --script edits.json -o part.igs
+  echo '[{"op": "untrim", "face": 1}]' | hairline edit part.igs --script - --dry-run
+
+A script is a JSON array of steps, done in order: objects with the field `op` and the fields of that
+operation. Faces, loops, curves and control points are numbered from 1, faces as in `hairline info`
+(or [model, face] in scenes of several models). A few of the operations:
+  {"op": "move_points", "face": 1, "points": [{"loop": 1, "curve": 2, "point": 1}], "by": [0.1, 0]}
+  {"op": "set_weight", "face": 1, "points": [{"loop": 1, "curve": 2, "point": 2}], "weight": 0.5}
+  {"op": "split_curve", "face": 1, "curve": {"loop": 1, "curve": 2}, "at": 0.5}
+  {"op": "add_loop", "face": 1, "role": "inner", "shape": {"circle": {"centre": [0, 0], "radius": 2}}}
+  {"op": "delete_loops", "face": 1, "loops": [2, 3]}
+All of them, each with an example: docs/edit-script.md. They are the ones of the editor.
+
+Prints a line for each step, then what is wrong with the loops of the faces touched; with --json, JSON
+lines. A step that cannot be done stops the run with its number and exit code 2; nothing is written
+then."#)]
+pub struct EditArguments {
+    /// Model or scene to change, or `demo`.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// File with the steps; `-` for standard input.
+    #[arg(long, value_name = "JSON")]
+    pub script: PathBuf,
+    /// File to write; the extension says what: .hairline (scene), .igs or .iges (IGES). May be FILE itself.
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+    /// Write nothing; only tell what would change.
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Tell what changed as JSON lines.
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// `hairline bench`.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "\
@@ -195,6 +236,8 @@ pub enum Table {
     Raycast,
     /// Ray casting against the f64 oracle: missed hits.
     Misses,
+    /// Saving and loading scene files of up to 50,000 faces: time and size.
+    Scene,
 }
 
 /// What the colours of a picture show.

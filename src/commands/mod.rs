@@ -13,6 +13,7 @@ pub mod output;
 pub mod progress;
 pub mod render;
 pub mod source;
+pub mod window;
 
 use std::process::ExitCode;
 
@@ -45,11 +46,12 @@ pub fn run() -> ExitCode {
 
 fn dispatch(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.command {
-        None => edit::run(&arguments.files, arguments.demo),
+        None => window::run(&arguments.files, arguments.demo),
         Some(Command::Render(arguments)) => render::run(arguments),
         Some(Command::Info(arguments)) => info::run(arguments),
         Some(Command::Classify(arguments)) => classify::run(arguments),
         Some(Command::Convert(arguments)) => convert::run(arguments),
+        Some(Command::Edit(arguments)) => edit::run(arguments),
         Some(Command::Bench(arguments)) => bench::run(arguments),
     }
 }

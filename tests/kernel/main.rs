@@ -3,6 +3,7 @@
 mod areas;
 mod bounds;
 mod closest;
+mod editing;
 mod loops;
 mod operations;
 mod parity;

@@ -71,7 +71,7 @@ fn help_and_version_go_to_standard_output() {
         assert!(stdout.contains("hairline"), "{stdout}");
     }
     let (_, stdout, _) = run(&["--help"], "");
-    for word in ["render", "info", "classify", "convert", "bench", "Examples", "Exit codes"] {
+    for word in ["render", "info", "classify", "convert", "edit", "bench", "Examples", "Exit codes"] {
         assert!(stdout.contains(word), "{word}");
     }
 }

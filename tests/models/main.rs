@@ -4,10 +4,12 @@
 mod areas;
 mod cli;
 mod convert;
+mod edit_script;
 mod export;
 mod fixtures;
 mod iges_truth;
 mod import;
 mod mutations;
 mod points;
+mod saving;
 mod truth;

@@ -7,6 +7,7 @@ pub mod classify;
 pub mod misses;
 pub mod raycast;
 pub mod rivals;
+pub mod scene;
 pub mod shapes;
 pub mod sheet;
 
@@ -24,7 +25,7 @@ use crate::scene::records::ModelRecord;
 pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     let tables = match arguments.table {
         Some(table) => vec![table],
-        None => vec![Table::Classify, Table::Build, Table::Raycast, Table::Misses],
+        None => vec![Table::Classify, Table::Build, Table::Raycast, Table::Misses, Table::Scene],
     };
     let models = models(&arguments.files)?;
     let mut out = std::io::stdout().lock();
@@ -33,6 +34,7 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
         Table::Build => build::run(&models, &mut out).map_err(unwritable),
         Table::Raycast => raycast::run(&models, &mut out).map_err(unwritable),
         Table::Misses => misses::run(&models, &mut out).map_err(unwritable),
+        Table::Scene => scene::run(&mut out).map_err(unwritable),
     })
 }
 

@@ -16,6 +16,8 @@ mod joints;
 mod limits;
 mod loops;
 mod points;
+pub mod random;
+pub mod script;
 mod shape;
 mod surface_points;
 mod surfaces;

@@ -8,6 +8,7 @@ use super::error::{OperationError, Place, Problem};
 use super::limits;
 use crate::kernel::nurbs::NurbsCurve2;
 use crate::kernel::primitives::outline;
+use crate::kernel::query::freehand;
 
 /// The shape of a new loop, in native surface parameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,6 +28,18 @@ pub enum Shape {
     },
     /// Straight lines through `points` and back to the first; three or more.
     Polyline { points: Vec<DVec2> },
+    /// A smooth closed curve near `points` drawn by hand, within `tolerance` as a fraction of the domain
+    /// (1/1000).
+    Freehand {
+        points: Vec<DVec2>,
+        #[serde(default = "hand")]
+        tolerance: f64,
+    },
+}
+
+/// Steadiness of a hand, as a fraction of the domain.
+fn hand() -> f64 {
+    1e-3
 }
 
 impl Shape {
@@ -37,6 +50,7 @@ impl Shape {
             Self::Circle { .. } => "circle",
             Self::Ellipse { .. } => "ellipse",
             Self::Polyline { .. } => "polyline",
+            Self::Freehand { .. } => "freehand curve",
         }
     }
 
@@ -76,6 +90,16 @@ impl Shape {
                     return Err(place.error(Problem::Refused { reason: reason.into() }));
                 }
                 outline::polygon(&corners)
+            }
+            Self::Freehand { points, tolerance } => {
+                limits::positive(place, "tolerance", *tolerance)?;
+                let domain = subject.view.domain();
+                let points: Vec<DVec2> =
+                    points.iter().map(|p| Ok(domain.normalise(point(p)?))).collect::<Result<_, _>>()?;
+                let curve = freehand::closed_curve(&points, *tolerance);
+                let curve =
+                    curve.ok_or_else(|| place.refused("a curve needs at least three different points"))?;
+                checked(vec![curve.map_points(|p: DVec2| domain.native(p))], point)?
             }
         };
         Ok(vec![curves])

@@ -1,0 +1,120 @@
+//! `hairline bench scene`: saving and loading scene files.
+//!
+//! The quilt has round numbers; the shaken quilt has four cubic trim curves to a face and no two numbers
+//! alike, so that nothing but the digits themselves can be packed. Raw is 8 bytes for each number that is
+//! not implied (weights of 1 are).
+
+use std::cell::RefCell;
+use std::io::{self, Write};
+use std::path::Path;
+use std::time::Instant;
+
+use glam::{DVec2, DVec3};
+
+use super::sheet::{Sheet, number};
+use crate::kernel::nurbs::{KnotVector, NurbsCurve2};
+use crate::scene::file::{self, Packing, SaveOptions};
+use crate::scene::operation::random::RandomOperations;
+use crate::scene::records::{FaceRecord, LoopRecord, LoopRole};
+use crate::scene::{SceneRecord, demo};
+
+/// Faces of the largest scene.
+const FACES: usize = 50_000;
+
+/// Prints the table.
+///
+/// # Errors
+/// `out` cannot be written, or the temporary folder.
+pub fn run(out: &mut impl Write) -> io::Result<()> {
+    let folder = tempfile::tempdir()?;
+    let mut sheet = Sheet::new(
+        "Scene files: to disk and back, all threads, the slowest of two runs; MB are 10^6 bytes",
+        &["scene", "faces", "curves", "numbers", "raw MB", "file", "MB", "x raw", "save s", "load s"],
+    );
+    for (name, scene) in [
+        ("quilt", SceneRecord::of_model(demo::panels(FACES))),
+        ("shaken", shaken(FACES / 10)),
+        ("shaken", shaken(FACES)),
+    ] {
+        for (packing, kind) in [(Packing::Packed, "packed"), (Packing::Plain, "plain")] {
+            sheet.row(row(name, &scene, packing, kind, folder.path())?);
+        }
+    }
+    writeln!(out, "{sheet}")
+}
+
+fn row(
+    name: &str,
+    scene: &SceneRecord,
+    packing: Packing,
+    kind: &str,
+    folder: &Path,
+) -> io::Result<Vec<String>> {
+    let path = folder.join("bench.hairline");
+    let (mut save, mut load) = (0.0f64, 0.0f64);
+    for _ in 0..2 {
+        let begun = Instant::now();
+        let options = SaveOptions { packing, expected: None };
+        file::save(&path, scene, &options).map_err(io::Error::other)?;
+        save = save.max(begun.elapsed().as_secs_f64());
+        let begun = Instant::now();
+        let loaded = file::load(&path).map_err(io::Error::other)?;
+        load = load.max(begun.elapsed().as_secs_f64());
+        if loaded.scene != *scene {
+            return Err(io::Error::other("a scene came back from its file changed"));
+        }
+    }
+    let bytes = path.metadata()?.len() as f64;
+    let faces = scene.models.iter().flat_map(|m| &m.faces);
+    let (count, curves) = faces.clone().fold((0, 0), |(faces, curves), face| {
+        (faces + 1, curves + face.loops.iter().map(|l| l.curves.len()).sum::<usize>())
+    });
+    let numbers: usize = faces.map(numbers).sum();
+    let raw = 8.0 * numbers as f64;
+    Ok(vec![
+        name.into(),
+        count.to_string(),
+        curves.to_string(),
+        numbers.to_string(),
+        number(Some(raw / 1e6)),
+        kind.into(),
+        number(Some(bytes / 1e6)),
+        number(Some(bytes / raw)),
+        number(Some(save)),
+        number(Some(load)),
+    ])
+}
+
+/// Numbers that a face's geometry needs.
+fn numbers(face: &FaceRecord) -> usize {
+    let weights = |w: &[f64]| if w.iter().all(|w| *w == 1.0) { 0 } else { w.len() };
+    let surface = &face.surface;
+    let knots = surface.knots_u().as_slice().len() + surface.knots_v().as_slice().len();
+    let curves = face
+        .loops
+        .iter()
+        .flat_map(|l| &l.curves)
+        .map(|c| c.knots().as_slice().len() + 2 * c.points().len() + weights(c.weights()));
+    knots + 3 * surface.points().len() + weights(surface.weights()) + curves.sum::<usize>()
+}
+
+/// Panels with every control point shaken, trimmed by four cubics each.
+fn shaken(faces: usize) -> SceneRecord {
+    let mut model = demo::panels(faces);
+    let random = RefCell::new(RandomOperations::new(1, 0));
+    let unit = || random.borrow_mut().unit();
+    for face in &mut model.faces {
+        face.surface = face.surface.map_points(|p| p + 0.01 * DVec3::new(unit(), unit(), unit()));
+        let corners = [(0.2, 0.2), (0.8, 0.2), (0.8, 0.8), (0.2, 0.8)];
+        let corners = corners.map(|(u, v)| DVec2::new(u, v) + 0.1 * DVec2::new(unit(), unit()));
+        let curves = (0..4).map(|k| {
+            let (a, b) = (corners[k], corners[(k + 1) % 4]);
+            let off = || 0.02 * DVec2::new(unit(), unit());
+            let points = vec![a, a.lerp(b, 0.33) + off(), a.lerp(b, 0.66) + off(), b];
+            let knots = KnotVector::bezier(3, 0.0, 1.0).expect("degree 3 is in range");
+            NurbsCurve2::new(knots, points, vec![1.0; 4]).expect("finite")
+        });
+        face.loops = vec![LoopRecord::new(LoopRole::Outer, curves.collect())];
+    }
+    SceneRecord::of_model(model)
+}
