@@ -23,6 +23,7 @@ pub mod inspection;
 pub mod object;
 pub mod panels;
 pub mod picking;
+pub mod problems;
 pub mod redraw;
 pub mod render;
 pub mod selection;
@@ -85,8 +86,8 @@ impl Plugin for EditorPlugin {
             elements::ElementsPlugin,
             settings::SettingsPlugin,
             tools::ToolsPlugin,
-            files::FilesPlugin,
-            document::DocumentPlugin,
+            (files::FilesPlugin, document::DocumentPlugin),
+            problems::ProblemsPlugin,
             camera::CameraPlugin,
             uv::UvPlugin,
             handles::HandlesPlugin,

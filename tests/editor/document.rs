@@ -237,7 +237,13 @@ fn copies_are_kept_offered_and_removed() {
     app.update();
     assert_eq!(copies(), 0, "nothing to keep yet");
     rename(&mut app, "precious");
-    until(&mut app, "a copy", |_| copies() == 1);
+    // The note comes last.
+    let notes = || {
+        let all = std::fs::read_dir(folder.path()).expect("readable").flatten();
+        all.filter(|e| e.path().extension().is_some_and(|e| e == "json")).count()
+    };
+    until(&mut app, "a copy", |_| notes() == 1);
+    assert_eq!(copies(), 1);
     let before = records(&mut app);
     // As after a crash: the copy of a process that is gone.
     let copy = std::fs::read_dir(folder.path()).expect("readable").flatten().map(|e| e.path());

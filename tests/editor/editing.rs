@@ -151,7 +151,7 @@ fn refused_operations_change_nothing_and_say_why() {
     let bad = [
         Operation::SetWeight { face, points: points.clone(), weight: 0.0 },
         Operation::SetWeight { face, points, weight: f64::NAN },
-        Operation::DeleteLoops { face, loops: vec![99] },
+        Operation::DeleteLoops { face, loops: vec![99_999] },
         Operation::DeleteLoops { face: FaceId { model: 7, face: 0 }, loops: vec![0] },
         move_hole(face, f64::INFINITY),
     ];

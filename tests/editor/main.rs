@@ -8,6 +8,8 @@ mod editing;
 mod input;
 mod inspection;
 #[cfg(target_os = "linux")]
+mod recovery;
+#[cfg(target_os = "linux")]
 mod screen;
 mod settings;
 mod uv;

@@ -15,7 +15,7 @@ const PATIENCE: Duration = Duration::from_secs(120);
 // X keycodes of the keyboard that Xvfb has.
 const ESCAPE: u8 = 9;
 const Q: u8 = 24;
-const CONTROL: u8 = 37;
+pub const CONTROL: u8 = 37;
 const A: u8 = 38;
 const H: u8 = 43;
 const SHIFT: u8 = 50;
@@ -28,10 +28,17 @@ pub struct Editor {
 
 impl Editor {
     pub fn start(settings: &Path) -> Self {
+        Self::start_with(settings, &[])
+    }
+
+    /// On these files, with settings and copies to recover from in a folder.
+    pub fn start_with(folder: &Path, files: &[&Path]) -> Self {
         let screen = Screen::start();
         let process = Command::new(env!("CARGO_BIN_EXE_hairline"))
+            .args(files)
             .env("DISPLAY", &screen.name)
-            .env("XDG_CONFIG_HOME", settings)
+            .env("XDG_CONFIG_HOME", folder)
+            .env("XDG_DATA_HOME", folder)
             .env_remove("WAYLAND_DISPLAY")
             .env_remove("WAYLAND_SOCKET")
             .stdin(Stdio::null())
@@ -108,7 +115,13 @@ impl Editor {
         self.screen.input(Input::KeyUp, modifier);
     }
 
-    fn end(&mut self) -> ExitStatus {
+    /// As `kill -9` does.
+    pub fn kill(&mut self) {
+        self.process.kill().expect("it runs");
+        self.process.wait().expect("it ends");
+    }
+
+    pub fn end(&mut self) -> ExitStatus {
         self.key_with(CONTROL, Q);
         let started = Instant::now();
         while started.elapsed() < PATIENCE {

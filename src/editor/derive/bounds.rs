@@ -4,21 +4,24 @@ use bevy::ecs::entity::EntityHashMap;
 use bevy::prelude::*;
 
 use super::bounds_tree::BoundsTree;
+use super::derived::Derived;
 use crate::editor::object::{DerivedFace, FaceChange, Shown};
 use crate::kernel::view::Bounds;
 
-/// Boxes of the scene: what fitting and the grid go by.
+/// Boxes of the scene, what fitting and the grid go by, and the number of its trim curves.
 #[derive(Resource, Debug, Clone, Copy, PartialEq)]
 pub struct SceneBounds {
     /// Around all faces shown.
     pub shown: Bounds,
     /// Around all faces.
     pub all: Bounds,
+    /// Trim curves of all faces.
+    pub curves: usize,
 }
 
 impl Default for SceneBounds {
     fn default() -> Self {
-        Self { shown: Bounds::EMPTY, all: Bounds::EMPTY }
+        Self { shown: Bounds::EMPTY, all: Bounds::EMPTY, curves: 0 }
     }
 }
 
@@ -41,25 +44,30 @@ impl SceneBounds {
 /// The box of each face, so that one that changes costs nothing for the others.
 #[derive(Resource, Debug, Default)]
 pub(super) struct FaceBoxes {
-    places: EntityHashMap<usize>,
+    /// Place in the trees and number of trim curves.
+    places: EntityHashMap<(usize, usize)>,
     free: Vec<usize>,
     shown: BoundsTree,
     all: BoundsTree,
+    curves: usize,
 }
 
 impl FaceBoxes {
-    fn set(&mut self, face: Entity, bounds: Bounds, shown: bool) {
+    fn set(&mut self, face: Entity, derived: &Derived, shown: bool) {
         let next = self.free.last().copied().unwrap_or(self.places.len());
-        let place = *self.places.entry(face).or_insert_with(|| {
+        let (place, curves) = self.places.entry(face).or_insert_with(|| {
             self.free.pop();
-            next
+            (next, 0)
         });
-        self.all.set(place, bounds);
-        self.shown.set(place, if shown { bounds } else { Bounds::EMPTY });
+        self.curves = self.curves - *curves + derived.curves;
+        *curves = derived.curves;
+        self.all.set(*place, derived.bounds);
+        self.shown.set(*place, if shown { derived.bounds } else { Bounds::EMPTY });
     }
 
     fn remove(&mut self, face: Entity) {
-        if let Some(place) = self.places.remove(&face) {
+        if let Some((place, curves)) = self.places.remove(&face) {
+            self.curves -= curves;
             self.all.set(place, Bounds::EMPTY);
             self.shown.set(place, Bounds::EMPTY);
             self.free.push(place);
@@ -80,9 +88,10 @@ pub(super) fn update(
     for change in changes.read() {
         let (FaceChange::Derived(face) | FaceChange::Shown(face) | FaceChange::Removed(face)) = *change;
         match faces.get(face) {
-            Ok((derived, shown)) => boxes.set(face, derived.0.bounds, shown.0),
+            Ok((derived, shown)) => boxes.set(face, &derived.0, shown.0),
             Err(_) => boxes.remove(face),
         }
     }
-    bounds.set_if_neq(SceneBounds { shown: boxes.shown.all(), all: boxes.all.all() });
+    let (shown, all, curves) = (boxes.shown.all(), boxes.all.all(), boxes.curves);
+    bounds.set_if_neq(SceneBounds { shown, all, curves });
 }

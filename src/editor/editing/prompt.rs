@@ -85,8 +85,11 @@ pub(super) fn defaults(action: EditAction, target: &Target) -> Vec<String> {
         A::SetPoint => point.map_or(vec![String::new(); 2], |(p, _)| vec![text(p.x), text(p.y)]),
         A::SetWeight => vec![text(point.map(|p| p.1).or(net_weight).unwrap_or(1.0))],
         A::InsertKnot | A::Split => {
-            let (start, end) = curve.map_or((0.0, 1.0), |c| c.knots().domain());
-            vec![text(0.5 * (start + end))]
+            // The middle of the longest span: a knot there is a new one.
+            let breaks = curve.map_or(vec![0.0, 1.0], |c| c.knots().breaks());
+            let spans = breaks.windows(2).map(|s| (s[1] - s[0], 0.5 * (s[0] + s[1])));
+            let longest = spans.max_by(|a, b| a.0.total_cmp(&b.0));
+            vec![text(longest.map_or(0.5, |(_, middle)| middle))]
         }
         A::RemoveKnot => {
             let inner = curve.and_then(|c| {

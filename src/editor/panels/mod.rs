@@ -12,6 +12,7 @@ pub(super) mod icon;
 mod inspection;
 mod menu;
 mod notice;
+mod problems;
 mod progress;
 mod prompt;
 mod properties;
@@ -33,12 +34,15 @@ use bevy_egui::{EguiContexts, EguiPostUpdateSet, EguiPrimaryContextPass, EguiRen
 pub use notice::{Notice, Notices};
 
 use super::camera::{CameraRequest, ViewCamera};
+use super::derive::SceneBounds;
 use super::diagnostics::{ProcessMemory, RenderFigures};
 use super::document::{Answer, DocumentFile, Questions, SaveRequest, Saving, document_name};
 use super::editing::{EditRequest, Editing, Prompt, RunEdit};
+use super::elements::ElementRequest;
 use super::files::{FileDialogs, Loading, OpenFiles, Picked};
 use super::object::{AuthoredFace, DerivedFace, FacePlace, Model, Part, Records, Scene, Shown};
 use super::picking::{LeftButton, Picker};
+use super::problems::ProblemList;
 use super::selection::{SelectRequest, Selection, VisibilityRequest};
 use super::settings::Settings;
 use super::theme::{self, Palette};
@@ -76,6 +80,8 @@ pub struct PanelState {
     pub(super) tree: tree::TreeState,
     /// The import report.
     pub(super) report: report::ReportState,
+    /// The list of problems.
+    pub(super) problems: problems::ProblemsState,
     /// The command palette.
     pub palette: command_palette::PaletteState,
 }
@@ -100,6 +106,8 @@ pub(super) struct Reads<'w, 's> {
     pub editing: Res<'w, Editing>,
     pub file: Res<'w, DocumentFile>,
     pub saving: Res<'w, Saving>,
+    pub problems: Res<'w, ProblemList>,
+    pub bounds: Res<'w, SceneBounds>,
     pub picker: Res<'w, Picker>,
     pub left: Res<'w, LeftButton>,
     pub camera: Res<'w, ViewCamera>,
@@ -128,6 +136,7 @@ pub(super) struct Writes<'w> {
     pub open: MessageWriter<'w, OpenFiles>,
     pub save: MessageWriter<'w, SaveRequest>,
     pub edits: MessageWriter<'w, EditRequest>,
+    pub elements: MessageWriter<'w, ElementRequest>,
     pub run: MessageWriter<'w, RunEdit>,
     pub answers: MessageWriter<'w, Answer>,
     pub redraw: MessageWriter<'w, RequestRedraw>,
@@ -187,6 +196,9 @@ fn show(
     }
     if reads.settings.inspection {
         inspection::show(&mut root, &reads, &mut writes, &mut inspection);
+    }
+    if reads.settings.problems {
+        problems::show(&mut root, &reads, &mut writes, &mut owned);
     }
     if reads.settings.tree {
         tree::show(&mut root, &reads, &mut writes, &mut owned);

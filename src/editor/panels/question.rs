@@ -1,4 +1,5 @@
-//! Questions above everything: unsaved work, a file changed by somebody else, copies to recover.
+//! Questions above everything: unsaved work, a file changed by somebody else, copies to recover. Enter gives the
+//! first answer, Esc leaves things as they are.
 
 use std::time::SystemTime;
 
@@ -16,6 +17,7 @@ pub(super) fn show(ctx: &egui::Context, reads: &Reads, questions: &Questions, wr
     let p = &reads.palette;
     let backdrop = Color32::from_black_alpha(if p.light { 60 } else { 120 });
     let modal = Modal::new(Id::new("question")).backdrop_color(backdrop).frame(super::sheet_frame(p));
+    let enter = ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Enter));
     let mut answer = None;
     let response = modal.show(ctx, |ui| {
         ui.set_width(440.0);
@@ -52,6 +54,14 @@ pub(super) fn show(ctx: &egui::Context, reads: &Reads, questions: &Questions, wr
             }
         });
     });
+    if enter && answer.is_none() {
+        // What is offered first.
+        answer = match question {
+            Question::Unsaved(_) => Some(Answer::Save),
+            Question::Changed { .. } => Some(Answer::SaveAs),
+            Question::Recover(copies) => copies.first().map(|copy| Answer::Recover(copy.file.clone())),
+        };
+    }
     if response.should_close() && answer.is_none() {
         answer = Some(Answer::Cancel);
     }

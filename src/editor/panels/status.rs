@@ -24,6 +24,11 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, selection: &Selection) {
                 let text = format!("{} selected", plural(selection.faces().len(), "face"));
                 ui.label(RichText::new(text).color(reads.palette.accent));
             }
+            if reads.problems.count() > 0 {
+                separator(ui, reads);
+                let text = format!("{} (F3)", plural(reads.problems.count(), "problem"));
+                ui.label(RichText::new(text).color(reads.palette.warning));
+            }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| figures(ui, reads));
         });
     });
@@ -52,7 +57,7 @@ fn under_pointer(reads: &Reads) -> String {
 fn figures(ui: &mut Ui, reads: &Reads) {
     let figures = *reads.figures.lock();
     let faces = reads.scene.face_count();
-    let curves: usize = reads.faces.iter().filter_map(|f| f.derived).map(|d| d.0.curves).sum();
+    let curves = reads.bounds.curves;
     let memory = match (reads.memory.resident, figures.gpu_bytes) {
         (Some(resident), 0) => bytes(resident),
         (Some(resident), gpu) => format!("{} + {} GPU", bytes(resident), bytes(gpu)),

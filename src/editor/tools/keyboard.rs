@@ -37,7 +37,7 @@ pub(super) fn press(
             }
             WindowEvent::MouseButtonInput(input) => {
                 if input.state.is_pressed() {
-                    on_panel = hands.position.is_some_and(|p| !viewport.contains(p));
+                    on_panel = !pointer.in_uv && hands.position.is_some_and(|p| !viewport.contains(p));
                 }
                 continue;
             }
