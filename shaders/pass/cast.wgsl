@@ -11,6 +11,9 @@
 @group(0) @binding(6) var<storage, read> trim_entries: array<u32>;
 @group(0) @binding(7) var<storage, read> trim_data: array<vec4f>;
 
+// Of each pixel the nearest depth hit so far in this pass, bits of f32; 0: none.
+@group(0) @binding(8) var<storage, read_write> nearest: array<atomic<u32>>;
+
 fn load_point(index: u32) -> vec4f {
     return points[index];
 }
@@ -27,9 +30,12 @@ fn load_trim_data(index: u32) -> vec4f {
     return trim_data[index];
 }
 
+// Stands in `order` where there is no cell. Mirror: encoding::order::NO_CELL.
+const NO_CELL: u32 = 0xffffffffu;
+
 struct Proxy {
     @builtin(position) position: vec4f,
-    @location(0) @interpolate(flat) ids: vec4u,      // face slot, first point, degrees, 1: trim
+    @location(0) @interpolate(flat) ids: vec4u,      // face slot, first point, degrees, cell * 2 + 1: trim
     @location(1) @interpolate(flat) m00: vec4f,      // quadratic model in view axes; w: residual
     @location(2) @interpolate(flat) m10: vec4f,      // w: size
     @location(3) @interpolate(flat) m01: vec3f,
@@ -57,6 +63,11 @@ fn view_axes() -> Axes {
 // plane as well.
 @vertex
 fn vertex(@builtin(vertex_index) vertex_index: u32, @builtin(instance_index) instance: u32) -> Proxy {
+    if (order[instance] == NO_CELL) {
+        var none: Proxy;
+        none.position = vec4f(0.0, 0.0, -1.0, 1.0);
+        return none;
+    }
     let cell = cells[order[instance]];
     let face = faces[cell.face];
     let axes = view_axes();
@@ -78,7 +89,7 @@ fn vertex(@builtin(vertex_index) vertex_index: u32, @builtin(instance_index) ins
     var out: Proxy;
     out.position = select(vec4f(0.0, 0.0, -1.0, 1.0), clip, (face.flags & FACE_VISIBLE) != 0u);
     let trimmed = (face.flags & FACE_TRIMMED) != 0u && (cell.flags & CELL_WHOLE) == 0u;
-    out.ids = vec4u(cell.face, cell.first_point, cell.degrees, u32(trimmed));
+    out.ids = vec4u(cell.face, cell.first_point, cell.degrees, order[instance] << 1u | u32(trimmed));
     out.m00 = vec4f(axes_apply(axes, cell.m00) + shift, cell.residual);
     out.m10 = vec4f(axes_apply(axes, cell.m10), cell.size);
     out.m01 = axes_apply(axes, cell.m01);
@@ -98,6 +109,22 @@ fn grid_header(in: Proxy) -> GridHeader {
         in.grid_base.x, in.grid_base.y, in.grid_base.z, in.grid_base.w);
 }
 
+// Boxes are widened by this many pixels and this part of their size.
+const BOX_PIXELS: f32 = 0.125;
+const BOX_SLACK: f32 = 2e-3;
+
+// The box of a cell, widened by what rounding and the tolerance of the solver may move a hit.
+fn cell_box(index: u32, shift: vec3f) -> ViewBox {
+    let axes = view_axes();
+    let cell = cells[index];
+    let centre = axes_apply(axes, cell.box_centre) + shift;
+    let far = max(centre.z + cell.size, 0.0);
+    let margin = BOX_PIXELS * (view.pixel.x + view.pixel.y * far) + BOX_SLACK * cell.size;
+    return ViewBox(centre, vec4f(axes_apply(axes, cell.box_x.xyz), cell.box_x.w + margin),
+        vec4f(axes_apply(axes, cell.box_y.xyz), cell.box_y.w + margin),
+        vec4f(axes_apply(axes, cell.box_z.xyz), cell.box_z.w + margin));
+}
+
 @fragment
 fn fragment(in: Proxy) -> Visibility {
     let pixel = in.position.xy + view.jitter;
@@ -105,6 +132,14 @@ fn fragment(in: Proxy) -> Visibility {
     let ray = Ray(ndc * view.slope_scale, ndc * view.offset_scale);
     let piece = Piece(in.ids.y, in.ids.z, in.m00.w, in.m10.w, in.shift,
         in.m00.xyz, in.m10.xyz, in.m01, in.m20, in.m11, in.m02);
+    let place = u32(in.position.y) * u32(view.size.x) + u32(in.position.x);
+    let known = bitcast<f32>(atomicLoad(&nearest[place]));
+    if (known > 0.0) {
+        let span = box_span(ray, cell_box(in.ids.w >> 1u, piece.shift));
+        if (known > depth_from(view.depth, span.x)) {
+            discard;
+        }
+    }
     let conics = piece_conics(ray, piece);
     let start = piece_seeds(piece, conics);
     if (start.count == 0u) {
@@ -135,7 +170,7 @@ fn fragment(in: Proxy) -> Visibility {
         if (root.converged && on_cell && depth > 0.0 && depth <= 1.0) {
             uv = clamp(mix(in.uv.xy, in.uv.zw, 0.5 + 0.5 * root.x), vec2f(0.0), vec2f(BELOW_ONE));
             normal = root.normal;
-            if (trim && in.ids.w != 0u) {
+            if (trim && (in.ids.w & 1u) != 0u) {
                 let grid = grid_header(in);
                 let verdict = classify(grid, uv.x, uv.y);
                 kept = verdict.inside;
@@ -162,5 +197,6 @@ fn fragment(in: Proxy) -> Visibility {
     let word = select(pack_normal(normal), pack_heat(normal, curve_evaluations, kept, evaluations), heat);
     out.words = vec4u(in.ids.x + 1u, bitcast<u32>(uv.x), bitcast<u32>(uv.y), word);
     out.depth = depth;
+    atomicMax(&nearest[place], bitcast<u32>(depth));
     return out;
 }

@@ -232,7 +232,11 @@ pub enum Table {
     Classify,
     /// Building the trimming structures: time and bytes per segment.
     Build,
-    /// Ray casting: time per frame and per fragment.
+    /// Editing: time and bytes from one moved control point to the ranges sent to a GPU.
+    Edit,
+    /// 100,000 random edits, undos and redos, checked against everything made from scratch.
+    Walk,
+    /// Ray casting: time per frame and per fragment, and what each pixel takes.
     Raycast,
     /// Ray casting against the f64 oracle: missed hits.
     Misses,

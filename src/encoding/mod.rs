@@ -8,8 +8,10 @@ pub mod level;
 pub mod look;
 pub mod mesh;
 pub mod options;
+pub mod order;
 pub mod scene;
 pub mod subdivision;
+pub mod tiling;
 pub mod view;
 
 pub use face::FaceHeader;

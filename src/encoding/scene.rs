@@ -2,15 +2,14 @@
 //!
 //! Each face owns one range per array, so that adding, replacing or removing a face touches nothing else.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
-use glam::{DVec2, DVec3};
-
 use super::arena::Arena;
-use super::cell::{self, Cell};
-use super::coverage::{Coverage, coverage};
+use super::cell::Cell;
 use super::face::FaceHeader;
-use super::subdivision;
+use super::order::DrawOrder;
+use super::tiling::{self, Before, PackedCells, Tiling};
 use crate::kernel::bezier::BezierPatch;
 use crate::kernel::face::{Face, UvRect};
 use crate::kernel::trim::ParityGrid;
@@ -44,6 +43,21 @@ struct Entry {
     trim_entries: Range<u32>,
     trim_data: Range<u32>,
     bounds: Bounds,
+    tiling: Tiling,
+}
+
+impl Entry {
+    fn empty() -> Self {
+        Self {
+            cells: 0..0,
+            points: 0..0,
+            trim_cells: 0..0,
+            trim_entries: 0..0,
+            trim_data: 0..0,
+            bounds: Bounds::EMPTY,
+            tiling: Tiling::default(),
+        }
+    }
 }
 
 /// All faces packed for ray casting.
@@ -55,7 +69,10 @@ pub struct PackedScene {
     pub(crate) trim_entries: Arena<u32>,
     pub(crate) trim_data: Arena<[u32; 4]>,
     pub(crate) faces: Arena<FaceHeader>,
+    pub(crate) order: DrawOrder,
     entries: Vec<Option<Entry>>,
+    /// Slots of `entries` without a face.
+    vacant: BTreeSet<u32>,
     revision: u64,
 }
 
@@ -82,29 +99,37 @@ impl PackedScene {
 
     /// Adds a face and says where it is.
     pub fn add(&mut self, shape: &FaceShape) -> FaceSlot {
-        let slot = match self.entries.iter().position(Option::is_none) {
-            Some(slot) => slot as u32,
+        let slot = match self.vacant.pop_first() {
+            Some(slot) => slot,
             None => {
                 self.entries.push(None);
                 self.faces.insert(&[bytemuck::Zeroable::zeroed()]).start
             }
         };
-        self.fill(slot, shape, FaceHeader::VISIBLE);
+        self.fill(slot, shape, FaceHeader::VISIBLE, None);
         FaceSlot(slot)
     }
 
-    /// Packs a face anew, keeping its slot, visibility and selection.
+    /// Packs a face anew, keeping its slot, visibility and selection. What did not change is taken over as it
+    /// is packed, and only words that differ count as changed.
     pub fn replace(&mut self, slot: FaceSlot, shape: &FaceShape) {
-        let flags = self.header(slot).map_or(FaceHeader::VISIBLE, |h| h.flags & !FaceHeader::REVERSED);
-        self.release(slot);
-        if (slot.0 as usize) < self.entries.len() {
-            self.fill(slot.0, shape, flags);
-        }
+        let Some(flags) = self.header(slot).map(|h| h.flags) else { return };
+        let before = self.entries[slot.0 as usize].take();
+        self.fill(slot.0, shape, flags, before);
     }
 
     /// Takes a face out; its slot may be used again by a later face.
     pub fn remove(&mut self, slot: FaceSlot) {
-        self.release(slot);
+        if let Some(entry) = self.entries.get_mut(slot.0 as usize).and_then(Option::take) {
+            self.cells.remove(entry.cells);
+            self.points.remove(entry.points);
+            self.trim_cells.remove(entry.trim_cells);
+            self.trim_entries.remove(entry.trim_entries);
+            self.trim_data.remove(entry.trim_data);
+            self.order.set(slot.0, 0..0);
+            self.vacant.insert(slot.0);
+            self.revision += 1;
+        }
     }
 
     /// What shading knows of a face.
@@ -120,9 +145,18 @@ impl PackedScene {
             header.flags = if on { header.flags | flag } else { header.flags & !flag };
             if header != self.faces.data()[slot.0 as usize] {
                 self.faces.set(slot.0, header);
+                self.list_cells(slot.0);
                 self.revision += 1;
             }
         }
+    }
+
+    /// Lists the cells of a face to be drawn, if it is to be.
+    fn list_cells(&mut self, slot: u32) {
+        let shown = self.faces.data()[slot as usize].flags & FaceHeader::VISIBLE != 0;
+        let entry = self.entries[slot as usize].as_ref();
+        let cells = entry.filter(|_| shown).map_or(0..0, |e| e.cells.clone());
+        self.order.set(slot, cells);
     }
 
     /// Sets the colour of a face, linear RGB.
@@ -195,6 +229,76 @@ impl PackedScene {
         self.trim_cells.touch_all();
         self.trim_entries.touch_all();
         self.trim_data.touch_all();
+        self.order.words().touch_all();
+    }
+
+    /// Bytes that the next upload would send; afterwards nothing counts as changed.
+    pub fn take_changed_bytes(&mut self) -> usize {
+        fn taken<T: bytemuck::NoUninit>(arena: &mut Arena<T>) -> usize {
+            arena.take_dirty().iter().map(|r| r.len() * size_of::<T>()).sum()
+        }
+        taken(&mut self.cells)
+            + taken(&mut self.points)
+            + taken(&mut self.faces)
+            + taken(&mut self.trim_cells)
+            + taken(&mut self.trim_entries)
+            + taken(&mut self.trim_data)
+            + taken(self.order.words())
+    }
+
+    /// Whether two faces, of this scene or of another one, are packed alike, wherever their ranges are.
+    pub fn is_packed_like(&self, slot: FaceSlot, other: &Self, other_slot: FaceSlot) -> bool {
+        let of = |scene: &Self, slot: FaceSlot| -> Option<Vec<u8>> {
+            let e = scene.entries.get(slot.0 as usize)?.as_ref()?;
+            fn words<'a, T: bytemuck::NoUninit>(arena: &'a Arena<T>, range: &Range<u32>) -> &'a [u8] {
+                bytemuck::cast_slice(&arena.data()[range.start as usize..range.end as usize])
+            }
+            let mut header = scene.faces.data()[slot.0 as usize];
+            header.grid.cell_base -= e.trim_cells.start;
+            header.grid.entry_base -= e.trim_entries.start;
+            header.grid.data_base -= e.trim_data.start;
+            header.number -= slot.0;
+            let mut all = bytemuck::bytes_of(&header).to_vec();
+            for cell in &scene.cells.data()[e.cells.start as usize..e.cells.end as usize] {
+                let (first_point, face) = (cell.first_point - e.points.start, cell.face - slot.0);
+                all.extend_from_slice(bytemuck::bytes_of(&Cell { first_point, face, ..*cell }));
+            }
+            all.extend_from_slice(words(&scene.points, &e.points));
+            all.extend_from_slice(words(&scene.trim_cells, &e.trim_cells));
+            all.extend_from_slice(words(&scene.trim_entries, &e.trim_entries));
+            all.extend_from_slice(words(&scene.trim_data, &e.trim_data));
+            Some(all)
+        };
+        of(self, slot) == of(other, other_slot)
+    }
+
+    /// Elements in the arrays, and how many of them no face uses. The ranges of the faces and the free ones
+    /// add up to all of it, or this is `None`.
+    pub fn room(&self) -> Option<(usize, usize)> {
+        fn add<'a, T: bytemuck::NoUninit>(
+            arena: &Arena<T>,
+            ranges: impl Iterator<Item = &'a Range<u32>>,
+            total: (usize, usize),
+        ) -> Option<(usize, usize)> {
+            let mut all: Vec<Range<u32>> = ranges.filter(|r| !r.is_empty()).cloned().collect();
+            all.extend(arena.free_ranges());
+            all.sort_by_key(|r| r.start);
+            let mut end = 0;
+            for range in &all {
+                if range.start != end {
+                    return None;
+                }
+                end = range.end;
+            }
+            let size = arena.data().len();
+            (end as usize == size).then(|| (total.0 + size, total.1 + size - arena.live()))
+        }
+        let live = || self.entries.iter().flatten();
+        let total = add(&self.cells, live().map(|e| &e.cells), (0, 0))?;
+        let total = add(&self.points, live().map(|e| &e.points), total)?;
+        let total = add(&self.trim_cells, live().map(|e| &e.trim_cells), total)?;
+        let total = add(&self.trim_entries, live().map(|e| &e.trim_entries), total)?;
+        add(&self.trim_data, live().map(|e| &e.trim_data), total)
     }
 
     /// Grows with every change; equal numbers mean nothing changed.
@@ -202,20 +306,26 @@ impl PackedScene {
         self.revision
     }
 
-    fn fill(&mut self, slot: u32, shape: &FaceShape, flags: u32) {
-        let (mut cells, mut points) = (Vec::new(), Vec::new());
-        let mut bounds = Bounds::EMPTY;
-        for patch in shape.patches {
-            pack_patch(patch, shape, slot, &mut cells, &mut points, &mut bounds);
-        }
-        let points = self.points.insert(&points);
-        cells.iter_mut().for_each(|c: &mut Cell| c.first_point += points.start);
-        let cells = self.cells.insert(&cells);
-        let empty = ParityGrid::default();
-        let grid = shape.grid.unwrap_or(&empty);
-        let trim_cells = self.trim_cells.insert(&grid.cells);
-        let trim_entries = self.trim_entries.insert(&grid.entries);
-        let trim_data = self.trim_data.insert(&grid.data);
+    fn fill(&mut self, slot: u32, shape: &FaceShape, flags: u32, before: Option<Entry>) {
+        let packed = {
+            let before = before.as_ref().map(|e| Before {
+                tiling: &e.tiling,
+                cells: &self.cells.data()[e.cells.start as usize..e.cells.end as usize],
+                points: &self.points.data()[e.points.start as usize..e.points.end as usize],
+                first_point: e.points.start,
+            });
+            tiling::pack(shape, slot, before)
+        };
+        let PackedCells { mut cells, points, bounds, tiling } = packed;
+        let old = before.unwrap_or_else(Entry::empty);
+        let points = self.points.replace(old.points, &points);
+        cells.iter_mut().for_each(|c| c.first_point += points.start);
+        let cells = self.cells.replace(old.cells, &cells);
+        let untrimmed = ParityGrid::default();
+        let grid = shape.grid.unwrap_or(&untrimmed);
+        let trim_cells = self.trim_cells.replace(old.trim_cells, &grid.cells);
+        let trim_entries = self.trim_entries.replace(old.trim_entries, &grid.entries);
+        let trim_data = self.trim_data.replace(old.trim_data, &grid.data);
         let mut flags = flags & !(FaceHeader::REVERSED | FaceHeader::TRIMMED);
         flags |= if shape.reversed { FaceHeader::REVERSED } else { 0 };
         flags |= if shape.grid.is_some() { FaceHeader::TRIMMED } else { 0 };
@@ -231,103 +341,12 @@ impl PackedScene {
                 ..grid.header
             },
         };
-        self.faces.set(slot, header);
+        if self.faces.data()[slot as usize] != header {
+            self.faces.set(slot, header);
+        }
         self.entries[slot as usize] =
-            Some(Entry { cells, points, trim_cells, trim_entries, trim_data, bounds });
+            Some(Entry { cells, points, trim_cells, trim_entries, trim_data, bounds, tiling });
+        self.list_cells(slot);
         self.revision += 1;
     }
-
-    fn release(&mut self, slot: FaceSlot) {
-        if let Some(entry) = self.entries.get_mut(slot.0 as usize).and_then(Option::take) {
-            self.cells.remove(entry.cells);
-            self.points.remove(entry.points);
-            self.trim_cells.remove(entry.trim_cells);
-            self.trim_entries.remove(entry.trim_entries);
-            self.trim_data.remove(entry.trim_data);
-            self.revision += 1;
-        }
-    }
-}
-
-/// Cuts what lies in `domain` of a patch into cells.
-fn pack_patch(
-    patch: &BezierPatch,
-    shape: &FaceShape,
-    slot: u32,
-    cells: &mut Vec<Cell>,
-    points: &mut Vec<[f32; 4]>,
-    bounds: &mut Bounds,
-) {
-    let domain = shape.domain;
-    let min = patch.uv_min.max(domain.min);
-    let max = patch.uv_max.min(domain.max);
-    if !(min.x < max.x && min.y < max.y) {
-        return;
-    }
-    let whole = min == patch.uv_min && max == patch.uv_max;
-    let part = if whole { patch.clone() } else { patch.restrict(patch.local(min), patch.local(max)) };
-    // Mixed so that corners on the domain's border are exactly 0 or 1.
-    let normalised = |p: DVec2| domain.normalise(min * (DVec2::ONE - p) + max * p);
-    for (piece, low, high) in subdivision::pieces(&part) {
-        let tile = Tile { piece, uv: (normalised(low), normalised(high)) };
-        let mut kept = Vec::new();
-        split_by_trims(tile, shape.grid, TRIM_SPLITS, &mut kept);
-        for (tile, coverage) in kept {
-            *bounds = bounds.union(Bounds::of(corner_sample(&tile.piece)));
-            let mut cell = cell::pack(&tile.piece, tile.uv, slot, points);
-            cell.flags = if coverage == Coverage::Whole { Cell::WHOLE } else { 0 };
-            cells.push(cell);
-        }
-    }
-}
-
-/// A piece of a patch with the face-normalised parameters of its corners.
-struct Tile {
-    piece: BezierPatch,
-    uv: (DVec2, DVec2),
-}
-
-/// Halvings of a piece that trims pass through, to leave out more of what is trimmed away.
-const TRIM_SPLITS: u32 = 4;
-
-/// Pieces of `tile` that show anything. It is cut only where that frees one part entirely.
-fn split_by_trims(
-    tile: Tile,
-    grid: Option<&ParityGrid>,
-    splits: u32,
-    kept: &mut Vec<(Tile, Coverage)>,
-) -> bool {
-    let found = grid.map_or(Coverage::Whole, |grid| coverage(grid, tile.uv.0, tile.uv.1));
-    match found {
-        Coverage::Empty => return true,
-        Coverage::Mixed if splits > 0 => {}
-        _ => {
-            kept.push((tile, found));
-            return false;
-        }
-    }
-    let ((low, high), side) = (tile.uv, tile.uv.1 - tile.uv.0);
-    let middle = 0.5 * (low + high);
-    let (cut_max, cut_min, local_max, local_min) = if side.x >= side.y {
-        let (a, b) = (DVec2::new(middle.x, high.y), DVec2::new(middle.x, low.y));
-        (a, b, DVec2::new(0.5, 1.0), DVec2::new(0.5, 0.0))
-    } else {
-        let (a, b) = (DVec2::new(high.x, middle.y), DVec2::new(low.x, middle.y));
-        (a, b, DVec2::new(1.0, 0.5), DVec2::new(0.0, 0.5))
-    };
-    let before = kept.len();
-    let first = Tile { piece: tile.piece.restrict(DVec2::ZERO, local_max), uv: (low, cut_max) };
-    let second = Tile { piece: tile.piece.restrict(local_min, DVec2::ONE), uv: (cut_min, high) };
-    let freed =
-        split_by_trims(first, grid, splits - 1, kept) | split_by_trims(second, grid, splits - 1, kept);
-    if !freed {
-        kept.truncate(before);
-        kept.push((tile, found));
-    }
-    freed
-}
-
-/// Points of a piece dense enough to bound it for framing a view.
-fn corner_sample(piece: &BezierPatch) -> impl Iterator<Item = DVec3> + '_ {
-    (0..9).map(|k| piece.point((k / 3) as f64 * 0.5, (k % 3) as f64 * 0.5))
 }

@@ -69,6 +69,7 @@ pub struct SceneBuffers {
     trim_cells: Mirror,
     trim_entries: Mirror,
     trim_data: Mirror,
+    order: Mirror,
 }
 
 impl SceneBuffers {
@@ -82,6 +83,7 @@ impl SceneBuffers {
             trim_cells: make("trim cells"),
             trim_entries: make("trim entries"),
             trim_data: make("trim data"),
+            order: make("order"),
         }
     }
 
@@ -102,11 +104,17 @@ impl SceneBuffers {
             self.trim_cells.update(device, queue, &mut scene.trim_cells)?,
             self.trim_entries.update(device, queue, &mut scene.trim_entries)?,
             self.trim_data.update(device, queue, &mut scene.trim_data)?,
+            self.order.update(device, queue, scene.order.words())?,
         ];
         Ok(parts.iter().fold(Uploaded::default(), |sum, (bytes, renewed)| Uploaded {
             bytes: sum.bytes + bytes,
             renewed: sum.renewed || *renewed,
         }))
+    }
+
+    /// The list of cells to draw.
+    pub fn order(&self) -> &wgpu::Buffer {
+        &self.order.buffer
     }
 
     /// Buffers in the order of the cast pass's bindings from 2 on.

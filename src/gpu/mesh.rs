@@ -91,6 +91,7 @@ impl MeshPass {
         device: &wgpu::Device,
         uniform: wgpu::BindingResource,
         buffers: &SceneBuffers,
+        nearest: &wgpu::Buffer,
         cast: &Pass,
     ) {
         let [_, _, faces, trim_cells, trim_entries, trim_data] = buffers.bindings();
@@ -104,6 +105,7 @@ impl MeshPass {
         if self.cast_group.is_none() {
             let mut resources = vec![uniform, self.order.as_entire_binding()];
             resources.extend(buffers.bindings().map(|b| b.as_entire_binding()));
+            resources.push(nearest.as_entire_binding());
             self.cast_group = Some(super::renderer::group(device, "mesh rays", &cast.layout, resources));
         }
     }

@@ -82,7 +82,7 @@ pub fn visibility(
         depth: bytemuck::pod_read_unaligned(depth),
     });
     let [width, height] = renderer.targets().size;
-    Ok(VisibilityBuffer { width, height, fragments: fragments.collect() })
+    Ok(VisibilityBuffer { width, height, fragments: fragments.collect(), counts: Default::default() })
 }
 
 /// Copies a texture to the CPU, rows packed.

@@ -40,6 +40,13 @@ pub(super) const STORAGE: wgpu::BindingType = wgpu::BindingType::Buffer {
     min_binding_size: None,
 };
 
+/// Written by the fragment stage.
+const WRITABLE: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Storage { read_only: false },
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
+
 const fn texture(sample_type: wgpu::TextureSampleType) -> wgpu::BindingType {
     wgpu::BindingType::Texture {
         sample_type,
@@ -63,6 +70,7 @@ impl Pipelines {
     pub fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
         let mut cast_bindings = vec![uniform(size_of::<View>())];
         cast_bindings.extend([STORAGE; 7]);
+        cast_bindings.push(WRITABLE);
         let look = uniform(size_of::<Look>());
         let add = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::One,
@@ -167,7 +175,11 @@ fn build(device: &wgpu::Device, recipe: &Recipe) -> Pass {
         .enumerate()
         .map(|(k, ty)| wgpu::BindGroupLayoutEntry {
             binding: k as u32,
-            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+            visibility: if *ty == WRITABLE {
+                wgpu::ShaderStages::FRAGMENT
+            } else {
+                wgpu::ShaderStages::VERTEX_FRAGMENT
+            },
             ty: *ty,
             count: None,
         })

@@ -40,9 +40,7 @@ pub struct Renderer {
     buffers: SceneBuffers,
     uniforms: wgpu::Buffer,
     next_slot: u64,
-    order: wgpu::Buffer,
     order_count: u32,
-    order_revision: Option<u64>,
     sampler: wgpu::Sampler,
     /// Rays of the last complete cast, and what sees them.
     targets: Targets,
@@ -50,6 +48,8 @@ pub struct Renderer {
     /// Rays of a cast by rows under way, and what sees them.
     next: Option<(Targets, View)>,
     sum: Sum,
+    /// Of each pixel the nearest depth hit so far; cleared with the depth of a cast.
+    nearest: wgpu::Buffer,
     cast_group: Option<wgpu::BindGroup>,
     resolve_group: Option<wgpu::BindGroup>,
     present_group: Option<wgpu::BindGroup>,
@@ -77,14 +77,13 @@ impl Renderer {
             buffers: SceneBuffers::new(device),
             uniforms,
             next_slot: 0,
-            order: order_buffer(device, 1024),
             order_count: 0,
-            order_revision: None,
             sampler,
             targets: Targets::new(device, [1, 1]),
             view: bytemuck::Zeroable::zeroed(),
             next: None,
             sum: Sum::new(device, [1, 1]),
+            nearest: nearest_buffer(device, [1, 1]),
             cast_group: None,
             resolve_group: None,
             present_group: None,
@@ -103,19 +102,8 @@ impl Renderer {
         queue: &wgpu::Queue,
         scene: &mut PackedScene,
     ) -> Result<Uploaded, GpuError> {
-        let mut uploaded = self.buffers.update(device, queue, scene)?;
-        if self.order_revision != Some(scene.revision()) {
-            let order: Vec<u32> = scene.visible_cells().collect();
-            let bytes: &[u8] = bytemuck::cast_slice(&order);
-            if bytes.len() as u64 > self.order.size() {
-                self.order = order_buffer(device, bytes.len() as u64 * 3 / 2);
-                uploaded.renewed = true;
-            }
-            queue.write_buffer(&self.order, 0, bytes);
-            self.order_count = order.len() as u32;
-            self.order_revision = Some(scene.revision());
-            uploaded.bytes += bytes.len() as u64;
-        }
+        let uploaded = self.buffers.update(device, queue, scene)?;
+        self.order_count = scene.order.words().data().len() as u32;
         if uploaded.renewed {
             self.cast_group = None;
             self.resolve_group = None;
@@ -164,6 +152,7 @@ impl Renderer {
         }
         self.next = None;
         self.view = view;
+        self.fit_nearest(device, size);
         let uniform = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &self.uniforms,
             offset: 0,
@@ -171,9 +160,20 @@ impl Renderer {
         });
         let cast = &self.pipelines.cast;
         let Some(mesh) = &mut self.mesh else { return };
-        mesh.prepare(device, uniform, &self.buffers, cast);
-        let mut pass = begin_visibility(encoder, "mesh", &self.targets, true);
+        mesh.prepare(device, uniform, &self.buffers, &self.nearest, cast);
+        let mut pass = begin_visibility(encoder, "mesh", &self.targets, &self.nearest, true);
         mesh.draw(&mut pass, slot, cast);
+    }
+
+    /// Makes room for the nearest depths of a picture.
+    fn fit_nearest(&mut self, device: &wgpu::Device, size: [u32; 2]) {
+        if self.nearest.size() < nearest_bytes(size) {
+            self.nearest = nearest_buffer(device, size);
+            self.cast_group = None;
+            if let Some(mesh) = &mut self.mesh {
+                mesh.renew();
+            }
+        }
     }
 
     /// Casts the rays of one sample.
@@ -203,6 +203,7 @@ impl Renderer {
         let view = View::new(&sample.camera, size, sample.jitter, sample.depth, cast_flags(sample.mode));
         let whole = rows == (0..size[1]);
         let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
+        self.fit_nearest(device, size);
         if self.cast_group.is_none() {
             self.cast_group = Some(self.make_cast_group(device));
         }
@@ -231,7 +232,7 @@ impl Renderer {
 
     fn draw_rays(&self, encoder: &mut wgpu::CommandEncoder, targets: &Targets, slot: u32, rows: Range<u32>) {
         let first = rows.start == 0;
-        let mut pass = begin_visibility(encoder, "cast", targets, first);
+        let mut pass = begin_visibility(encoder, "cast", targets, &self.nearest, first);
         if self.order_count > 0 && !rows.is_empty() {
             pass.set_scissor_rect(0, rows.start, targets.size[0], rows.end - rows.start);
             pass.set_pipeline(&self.pipelines.cast.pipeline);
@@ -321,7 +322,7 @@ impl Renderer {
         self.samples
     }
 
-    /// Cells drawn by each cast.
+    /// Cells drawn by each cast, and places kept free for more.
     pub fn cell_count(&self) -> u32 {
         self.order_count
     }
@@ -342,8 +343,10 @@ impl Renderer {
     }
 
     fn make_cast_group(&self, device: &wgpu::Device) -> wgpu::BindGroup {
-        let mut resources = vec![self.uniform_binding(size_of::<View>()), self.order.as_entire_binding()];
+        let mut resources =
+            vec![self.uniform_binding(size_of::<View>()), self.buffers.order().as_entire_binding()];
         resources.extend(self.buffers.bindings().map(|b| b.as_entire_binding()));
+        resources.push(self.nearest.as_entire_binding());
         group(device, "cast", &self.pipelines.cast.layout, resources)
     }
 
@@ -385,13 +388,30 @@ pub fn bounding_sphere(scene: &PackedScene) -> (DVec3, f64) {
     (bounds.centre(), 0.5 * bounds.diagonal())
 }
 
-/// A pass into visibility and depth; `first` clears them.
+fn nearest_bytes(size: [u32; 2]) -> u64 {
+    4 * u64::from(size[0]) * u64::from(size[1])
+}
+
+fn nearest_buffer(device: &wgpu::Device, size: [u32; 2]) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("nearest depths"),
+        size: nearest_bytes(size),
+        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// A pass into visibility and depth; `first` clears them and the nearest depths.
 fn begin_visibility<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
     label: &str,
     targets: &Targets,
+    nearest: &wgpu::Buffer,
     first: bool,
 ) -> wgpu::RenderPass<'a> {
+    if first {
+        encoder.clear_buffer(nearest, 0, Some(nearest_bytes(targets.size)));
+    }
     let clear = |value: wgpu::Color| if first { wgpu::LoadOp::Clear(value) } else { wgpu::LoadOp::Load };
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(label),
@@ -412,15 +432,6 @@ fn begin_visibility<'a>(
         timestamp_writes: None,
         occlusion_query_set: None,
         multiview_mask: None,
-    })
-}
-
-fn order_buffer(device: &wgpu::Device, size: u64) -> wgpu::Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("order"),
-        size: size.next_multiple_of(256),
-        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
     })
 }
 

@@ -2,14 +2,17 @@
 //! parity grid over the same rectangle normalised to the unit square. Derived from a surface and its loops,
 //! never stored.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use super::bezier::BezierPatch;
 use super::nurbs::NurbsSurface;
-use super::trim::grid::GridOptions;
+use super::trim::grid::{GridOptions, SegmentEdit};
 use super::trim::loop_record::LoopRecord;
 use super::trim::loops::{self, TrimLoops};
 use super::trim::pack::{PackedSegments, TooManySegments};
+use super::trim::resume::{LoopMemory, Resumed, narrowed};
 use super::trim::{FillRule, IntervalLists, ParityGrid, PieceList, SegmentSet, TrimStructure, oracle};
 pub use super::trim::{TrimRemark, UvRect};
 use super::view::Bounds;
@@ -36,8 +39,6 @@ pub struct PipelineCounts {
     pub monotone: usize,
     /// Pieces left when those are dropped that no ray can cross: horizontal or of no length.
     pub kept: usize,
-    /// Curves in P1's structure, after clipping to the v-intervals.
-    pub clipped: usize,
     /// Entries in the lists of the parity grid.
     pub entries: usize,
 }
@@ -80,6 +81,21 @@ pub struct Face {
     pub remarks: Vec<TrimRemark>,
     /// Box around the patches' control points.
     pub bounds: Bounds,
+    memory: Memory,
+}
+
+/// What an edited face keeps of what it was derived from, so that the next edit is quick.
+#[derive(Debug, Clone, Default)]
+struct Memory {
+    surface: Option<Arc<(NurbsSurface, Vec<BezierPatch>)>>,
+    loops: Option<Arc<LoopMemory>>,
+}
+
+/// Says nothing about the face.
+impl PartialEq for Memory {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// Distance (normalised) within which a point is on a trim curve: the precision of trimming in f32.
@@ -96,7 +112,46 @@ impl Face {
         Self::derive_with(surface, loops, &GridOptions::default())
     }
 
-    /// The same with choices for the grid.
+    /// Derives a face from an edited surface or edited loops. The result is that of [`Self::derive`] bit for
+    /// bit; what the edit left as it was is taken over from `previous`.
+    ///
+    /// # Errors
+    /// See [`FaceError`].
+    pub fn derive_after(
+        previous: &Self,
+        surface: &NurbsSurface,
+        loops: &[LoopRecord],
+    ) -> Result<Self, FaceError> {
+        let bezier = match &previous.memory.surface {
+            Some(known) if known.0 == *surface => Arc::clone(known),
+            _ => Arc::new((surface.clone(), surface.to_bezier())),
+        };
+        let known = previous.memory.loops.as_ref();
+        let resumed = known.and_then(|memory| memory.resume(&previous.pieces, surface, loops));
+        let (trim, kept) = match resumed {
+            Some(resumed) => {
+                let Resumed { loops: trim, chains, memory } = resumed;
+                let pieces = narrowed(&chains, &previous.pieces, &trim.pieces);
+                let segments = SegmentSet::new(&trim.pieces);
+                let splices = SegmentSet::splices(&previous.segments, &segments, &pieces, &chains);
+                let before = (&previous.pieces, &previous.segments, &previous.grid.data[..]);
+                let (packed, moves) =
+                    PackedSegments::after_edit((&trim.pieces, &segments), before, &splices)?;
+                let edit = SegmentEdit { before: &previous.segments, splices: &splices, moves: &moves };
+                let grid = previous.grid.after_edit(&segments, &packed, &edit, &GridOptions::default());
+                (Trim { trim, segments, grid }, Some(memory))
+            }
+            None => {
+                let trim = Trim::new(surface, loops, &GridOptions::default())?;
+                let memory = LoopMemory::new(surface, loops, &trim.trim);
+                (trim, memory)
+            }
+        };
+        let memory = Memory { loops: kept.map(Arc::new), surface: Some(Arc::clone(&bezier)) };
+        Ok(Self::assemble(surface, loops, &bezier.1, trim, memory))
+    }
+
+    /// The same as [`Self::derive`] with choices for the grid.
     ///
     /// # Errors
     /// See [`FaceError`].
@@ -105,27 +160,46 @@ impl Face {
         loops: &[LoopRecord],
         options: &GridOptions,
     ) -> Result<Self, FaceError> {
-        let trim = loops::prepare(surface, loops);
-        let TrimLoops { domain, pieces, bezier, period, remarks } = trim;
-        if !domain.has_area() {
-            return Err(FaceError::EmptyDomain { domain });
-        }
-        let segments = SegmentSet::new(&pieces);
-        let packed = PackedSegments::new(&pieces, &segments)?;
-        let grid = ParityGrid::new(&segments, &packed, options);
-        let patches = cover(surface, &domain, period);
-        let patches: Vec<_> = patches.into_iter().filter(|p| is_needed(&grid, &domain, p)).collect();
+        let trim = Trim::new(surface, loops, options)?;
+        Ok(Self::assemble(surface, loops, &surface.to_bezier(), trim, Memory::default()))
+    }
+
+    fn assemble(
+        surface: &NurbsSurface,
+        loops: &[LoopRecord],
+        bezier: &[BezierPatch],
+        Trim { trim, segments, grid }: Trim,
+        memory: Memory,
+    ) -> Self {
+        let TrimLoops { domain, pieces, bezier: bezier_curves, period, remarks, .. } = trim;
+        let surface_domain = UvRect::of_surface(surface);
+        let patches = cover(&surface_domain, bezier, &domain, period, |p| is_needed(&grid, &domain, p));
         let bounds = patches.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
         let counts = PipelineCounts {
             nurbs: loops.iter().map(|l| l.curves.len()).sum(),
-            bezier,
+            bezier: bezier_curves,
             monotone: pieces.pieces().len(),
             kept: segments.segments.iter().filter(|s| !s.is_horizontal()).count(),
-            clipped: IntervalLists::count_clipped(&segments),
             entries: grid.entries.len(),
         };
-        let surface_domain = UvRect::of_surface(surface);
-        Ok(Self { domain, surface_domain, period, patches, pieces, segments, grid, counts, remarks, bounds })
+        Self {
+            domain,
+            surface_domain,
+            period,
+            patches,
+            pieces,
+            segments,
+            grid,
+            counts,
+            remarks,
+            bounds,
+            memory,
+        }
+    }
+
+    /// Number of curves in P1's structure, after clipping to the v-intervals (P1, table 1).
+    pub fn clipped_count(&self) -> usize {
+        IntervalLists::count_clipped(&self.segments)
     }
 
     /// P1's structure over the same segments, for its tables and as the baseline.
@@ -187,9 +261,35 @@ impl Face {
     }
 }
 
-/// The surface's patches over `domain`, shifted copies included.
-fn cover(surface: &NurbsSurface, domain: &UvRect, period: DVec2) -> Vec<BezierPatch> {
-    let rect = UvRect::of_surface(surface);
+/// Loops made ready.
+struct Trim {
+    trim: TrimLoops,
+    segments: SegmentSet,
+    grid: ParityGrid,
+}
+
+impl Trim {
+    fn new(surface: &NurbsSurface, loops: &[LoopRecord], options: &GridOptions) -> Result<Self, FaceError> {
+        let trim = loops::prepare(surface, loops);
+        let domain = trim.domain;
+        if !domain.has_area() {
+            return Err(FaceError::EmptyDomain { domain });
+        }
+        let segments = SegmentSet::new(&trim.pieces);
+        let packed = PackedSegments::new(&trim.pieces, &segments)?;
+        let grid = ParityGrid::new(&segments, &packed, options);
+        Ok(Self { trim, segments, grid })
+    }
+}
+
+/// Those of a surface's `patches` over `domain` that are needed, shifted copies included.
+fn cover(
+    rect: &UvRect,
+    patches: &[BezierPatch],
+    domain: &UvRect,
+    period: DVec2,
+    is_needed: impl Fn(&UvRect) -> bool,
+) -> Vec<BezierPatch> {
     let shifts = |axis: usize| -> Vec<f64> {
         let period = period[axis];
         if period == 0.0 {
@@ -200,14 +300,13 @@ fn cover(surface: &NurbsSurface, domain: &UvRect, period: DVec2) -> Vec<BezierPa
         let count = ((last - first).clamp(0.0, 16.0)) as usize + 1;
         (0..count).map(|k| (first + k as f64) * period).collect()
     };
-    let patches = surface.to_bezier();
     let slack = 1e-12 * domain.size();
     let mut result = Vec::new();
     for by in shifts(0).iter().flat_map(|u| shifts(1).into_iter().map(|v| DVec2::new(*u, v))) {
-        for patch in &patches {
+        for patch in patches {
             let (min, max) = (patch.uv_min + by, patch.uv_max + by);
             let overlaps = (max - slack).cmpgt(domain.min).all() && (min + slack).cmplt(domain.max).all();
-            if overlaps {
+            if overlaps && is_needed(&UvRect { min, max }) {
                 result.push(BezierPatch { uv_min: min, uv_max: max, ..patch.clone() });
             }
         }
@@ -216,8 +315,8 @@ fn cover(surface: &NurbsSurface, domain: &UvRect, period: DVec2) -> Vec<BezierPa
 }
 
 /// Whether part of the face may lie in a patch's rectangle (P1's redundancy step).
-fn is_needed(grid: &ParityGrid, domain: &UvRect, patch: &BezierPatch) -> bool {
-    let (min, max) = (domain.normalise(patch.uv_min), domain.normalise(patch.uv_max));
+fn is_needed(grid: &ParityGrid, domain: &UvRect, patch: &UvRect) -> bool {
+    let (min, max) = (domain.normalise(patch.min), domain.normalise(patch.max));
     let (low, high) = (min.max(DVec2::ZERO), max.min(DVec2::ONE));
     let middle = (0.5 * (low + high)).as_vec2();
     grid.classify(middle) || grid.has_segments((low - 1e-6).as_vec2(), (high + 1e-6).as_vec2())

@@ -3,14 +3,14 @@
 use glam::{Vec2, Vec3};
 
 use super::pack::{pack_heat, pack_normal};
-use super::ray::Ray;
+use super::ray::{Ray, ViewBox};
 use super::solve::{
     ANY, Axes, BELOW_ONE, FARTHER, HAIR, NEARER, Piece, axes_apply, newton, piece_conics, piece_seeds,
 };
 use crate::encoding::cell::Cell;
 use crate::encoding::view::{CAST_HEAT, CAST_TRIM, View};
 use crate::encoding::{FaceHeader, PackedScene};
-use crate::kernel::trim::grid::{GridView, classify};
+use crate::kernel::trim::grid::{GridView, classify, classify_listed};
 use crate::kernel::trim::tally::Counters;
 
 /// What a pixel shows: the words of the visibility buffer and the depth.
@@ -64,10 +64,58 @@ pub fn piece_of(view: &View, cell: &Cell) -> Piece {
     }
 }
 
-/// Casts the ray through `pixel` (position in pixels, jitter included) at one cell.
-pub fn cast(scene: &PackedScene, view: &View, cell: &Cell, piece: &Piece, pixel: Vec2) -> Fragment {
+/// The box of a cell as seen by `view`, widened by what rounding and the tolerance of the solver may move a hit.
+pub fn box_of(view: &View, cell: &Cell, shift: Vec3) -> ViewBox {
+    let axes = view_axes(view);
+    let centre = axes_apply(&axes, Vec3::from(cell.box_centre)) + shift;
+    let far = (centre.z + cell.size).max(0.0);
+    let margin = BOX_PIXELS * (view.pixel[0] + view.pixel[1] * far) + BOX_SLACK * cell.size;
+    let turn = |a: [f32; 4]| axes_apply(&axes, xyz(a)).extend(a[3] + margin);
+    ViewBox { centre, x: turn(cell.box_x), y: turn(cell.box_y), z: turn(cell.box_z) }
+}
+
+/// Boxes are widened by this many pixels and this part of their size.
+const BOX_PIXELS: f32 = 0.125;
+const BOX_SLACK: f32 = 2e-3;
+
+/// What casting took.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct CastCounts {
+    /// Rays that met the box of a cell.
+    pub entered: u64,
+    /// Of these, left because something nearer than the box was known.
+    pub hidden: u64,
+    /// Newton's method started.
+    pub solves: u64,
+    /// Surface evaluations.
+    pub evaluations: u64,
+    /// Hits asked for their trims.
+    pub classified: u64,
+}
+
+impl std::ops::Add for CastCounts {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self {
+            entered: self.entered + other.entered,
+            hidden: self.hidden + other.hidden,
+            solves: self.solves + other.solves,
+            evaluations: self.evaluations + other.evaluations,
+            classified: self.classified + other.classified,
+        }
+    }
+}
+
+/// Casts one ray at one cell.
+pub fn cast(
+    scene: &PackedScene,
+    view: &View,
+    cell: &Cell,
+    piece: &Piece,
+    ray: Ray,
+    counts: &mut CastCounts,
+) -> Fragment {
     let face = &scene.faces.data()[cell.face as usize];
-    let ray = view_ray(view, pixel);
     let conics = piece_conics(ray, piece);
     let start = piece_seeds(piece, &conics);
     let axes = view_axes(view);
@@ -80,6 +128,8 @@ pub fn cast(scene: &PackedScene, view: &View, cell: &Cell, piece: &Piece, pixel:
     while going {
         let root = newton(scene.points.data(), ray, &axes, piece, &conics, pixel_width, x, branch);
         evaluations += root.evaluations;
+        counts.solves += 1;
+        counts.evaluations += u64::from(root.evaluations);
         // One zero and none found: the surface may have two where the model sees one.
         going = if branch == ANY { !root.converged } else { branch == NEARER };
         x = if branch == NEARER { start.second } else { start.first };
@@ -93,6 +143,7 @@ pub fn cast(scene: &PackedScene, view: &View, cell: &Cell, piece: &Piece, pixel:
         let part = 0.5 + 0.5 * root.x;
         let uv = (low * (1.0 - part) + high * part).clamp(Vec2::ZERO, Vec2::splat(BELOW_ONE));
         let trimmed = face.flags & FaceHeader::TRIMMED != 0 && cell.flags & Cell::WHOLE == 0;
+        counts.classified += u64::from(trim && trimmed);
         let kept = if trim && trimmed { is_kept(&grid_view(scene, face), uv, &mut counters) } else { true };
         if kept || heat {
             let word = if heat {
@@ -116,8 +167,8 @@ fn is_kept(grid: &GridView, uv: Vec2, counters: &mut Counters) -> bool {
         let by = if k & 1 == 0 { ROUNDING_UV } else { -ROUNDING_UV };
         uv + if k < 2 { Vec2::new(by, 0.0) } else { Vec2::new(0.0, by) }
     };
-    classify(grid, uv.x, uv.y, counters)
-        || (0..4).map(nudge).any(|p| classify(grid, p.x, p.y, &mut Counters::default()))
+    let (inside, listed) = classify_listed(grid, uv.x, uv.y, counters);
+    inside || listed && (0..4).map(nudge).any(|p| classify(grid, p.x, p.y, &mut Counters::default()))
 }
 
 /// The trim grid of a face in the scene's arrays.

@@ -157,7 +157,15 @@ mod tests {
             Fragment { words: [face, 0, 0, pack_normal(Vec3::NEG_Z)], depth: a + b * z(x) }
         };
         let at = |k: u32| if k % 16 == 8 { behind } else { fragment(k % 16) };
-        (VisibilityBuffer { width: 16, height: 16, fragments: (0..256).map(at).collect() }, view)
+        (
+            VisibilityBuffer {
+                width: 16,
+                height: 16,
+                fragments: (0..256).map(at).collect(),
+                counts: Default::default(),
+            },
+            view,
+        )
     }
 
     #[test]

@@ -1,10 +1,11 @@
 //! The visibility buffer drawn on the CPU: tiles in parallel, every cell of a tile in turn.
 
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use rayon::prelude::*;
 
 use super::bins::{PixelRect, cover};
-use super::cast::{Fragment, cast, piece_of, view_axes};
+use super::cast::{CastCounts, Fragment, box_of, cast, piece_of, view_axes, view_ray};
+use super::ray::{ViewBox, box_span, depth_from};
 use super::solve::Piece;
 use crate::encoding::PackedScene;
 use crate::encoding::view::View;
@@ -21,6 +22,8 @@ pub struct VisibilityBuffer {
     pub height: u32,
     /// Pixels.
     pub fragments: Vec<Fragment>,
+    /// What casting took.
+    pub counts: CastCounts,
 }
 
 impl VisibilityBuffer {
@@ -41,18 +44,19 @@ pub fn draw(scene: &PackedScene, view: &View) -> VisibilityBuffer {
 pub fn draw_cells(scene: &PackedScene, view: &View, cells: Vec<u32>) -> VisibilityBuffer {
     let (width, height) = (view.size[0] as u32, view.size[1] as u32);
     let axes = view_axes(view);
-    let pieces: Vec<(u32, Piece, PixelRect)> = cells
+    let pieces: Vec<Visible> = cells
         .par_iter()
         .filter_map(|index| {
             let cell = &scene.cells.data()[*index as usize];
             let piece = piece_of(view, cell);
             let shift: Vec3 = piece.shift;
-            cover(view, &axes, cell, shift).map(|rect| (*index, piece, rect))
+            let bound = box_of(view, cell, shift);
+            cover(view, &axes, cell, shift).map(|rect| Visible { index: *index, piece, rect, bound })
         })
         .collect();
     let (columns, rows) = (width.div_ceil(TILE), height.div_ceil(TILE));
     let mut bins: Vec<Vec<u32>> = vec![Vec::new(); (columns * rows) as usize];
-    for (k, (_, _, rect)) in pieces.iter().enumerate() {
+    for (k, Visible { rect, .. }) in pieces.iter().enumerate() {
         for row in rect.min[1] / TILE..rect.max[1].div_ceil(TILE).min(rows) {
             for column in rect.min[0] / TILE..rect.max[0].div_ceil(TILE).min(columns) {
                 bins[(row * columns + column) as usize].push(k as u32);
@@ -60,12 +64,12 @@ pub fn draw_cells(scene: &PackedScene, view: &View, cells: Vec<u32>) -> Visibili
         }
     }
     // Nearest first, so that most of what is hidden is found hidden without casting.
-    let tiles: Vec<Vec<Fragment>> = bins
+    let tiles: Vec<(Vec<Fragment>, CastCounts)> = bins
         .into_par_iter()
         .enumerate()
         .map(|(tile, mut list)| {
             list.sort_by(|a, b| {
-                let z = |k: u32| pieces[k as usize].1.m00.z;
+                let z = |k: u32| pieces[k as usize].nearest();
                 z(*a).total_cmp(&z(*b)).then(a.cmp(b))
             });
             let origin = [tile as u32 % columns * TILE, tile as u32 / columns * TILE];
@@ -73,7 +77,7 @@ pub fn draw_cells(scene: &PackedScene, view: &View, cells: Vec<u32>) -> Visibili
         })
         .collect();
     let mut fragments = vec![Fragment::NONE; (width * height) as usize];
-    for (tile, drawn) in tiles.iter().enumerate() {
+    for (tile, (drawn, _)) in tiles.iter().enumerate() {
         let origin = [tile as u32 % columns * TILE, tile as u32 / columns * TILE];
         for y in 0..TILE.min(height - origin[1]) {
             let count = TILE.min(width - origin[0]) as usize;
@@ -82,40 +86,61 @@ pub fn draw_cells(scene: &PackedScene, view: &View, cells: Vec<u32>) -> Visibili
             fragments[to..to + count].copy_from_slice(&drawn[from..from + count]);
         }
     }
-    VisibilityBuffer { width, height, fragments }
+    let counts = tiles.iter().fold(CastCounts::default(), |sum, (_, counts)| sum + *counts);
+    VisibilityBuffer { width, height, fragments, counts }
+}
+
+/// A cell in sight.
+struct Visible {
+    /// Position in the cell array.
+    index: u32,
+    piece: Piece,
+    rect: PixelRect,
+    bound: ViewBox,
+}
+
+impl Visible {
+    /// Depth of the nearest corner of its box.
+    fn nearest(&self) -> f32 {
+        let b = &self.bound;
+        let reach = |axis: Vec4| axis.z.abs() * axis.w;
+        b.centre.z - reach(b.x) - reach(b.y) - reach(b.z)
+    }
 }
 
 fn draw_tile(
     scene: &PackedScene,
     view: &View,
-    pieces: &[(u32, Piece, PixelRect)],
+    pieces: &[Visible],
     list: &[u32],
     origin: [u32; 2],
-) -> Vec<Fragment> {
+) -> (Vec<Fragment>, CastCounts) {
     let mut tile = vec![Fragment::NONE; (TILE * TILE) as usize];
+    let mut counts = CastCounts::default();
+    let planes = Vec4::from(view.depth);
     for k in list {
-        let (index, piece, rect) = &pieces[*k as usize];
+        let Visible { index, piece, rect, bound } = &pieces[*k as usize];
         let cell = &scene.cells.data()[*index as usize];
-        let nearest = piece.m00.z - 2.0 * piece.size;
-        let w = view.depth[2] + view.depth[3] * nearest;
-        let best = if view.depth[3] == 0.0 || nearest > 0.0 {
-            (view.depth[0] + view.depth[1] * nearest) / w
-        } else {
-            f32::INFINITY
-        };
         for y in rect.min[1].max(origin[1])..rect.max[1].min(origin[1] + TILE) {
             for x in rect.min[0].max(origin[0])..rect.max[0].min(origin[0] + TILE) {
-                let here = &mut tile[((y - origin[1]) * TILE + x - origin[0]) as usize];
-                if here.depth >= best {
+                let pixel = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + Vec2::from(view.jitter);
+                let ray = view_ray(view, pixel);
+                let span = box_span(ray, bound);
+                if span.x > span.y {
                     continue;
                 }
-                let pixel = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + Vec2::from(view.jitter);
-                let fragment = cast(scene, view, cell, piece, pixel);
+                counts.entered += 1;
+                let here = &mut tile[((y - origin[1]) * TILE + x - origin[0]) as usize];
+                if here.depth > depth_from(planes, span.x) {
+                    counts.hidden += 1;
+                    continue;
+                }
+                let fragment = cast(scene, view, cell, piece, ray, &mut counts);
                 if fragment.words[0] != 0 && fragment.depth > here.depth {
                     *here = fragment;
                 }
             }
         }
     }
-    tile
+    (tile, counts)
 }

@@ -4,6 +4,7 @@ mod areas;
 mod bounds;
 mod closest;
 mod editing;
+mod edits;
 mod loops;
 mod operations;
 mod parity;

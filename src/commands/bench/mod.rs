@@ -4,12 +4,14 @@
 
 pub mod build;
 pub mod classify;
+pub mod edit;
 pub mod misses;
 pub mod raycast;
 pub mod rivals;
 pub mod scene;
 pub mod shapes;
 pub mod sheet;
+pub mod walk;
 
 use std::io;
 use std::path::PathBuf;
@@ -25,13 +27,23 @@ use crate::scene::records::ModelRecord;
 pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     let tables = match arguments.table {
         Some(table) => vec![table],
-        None => vec![Table::Classify, Table::Build, Table::Raycast, Table::Misses, Table::Scene],
+        None => vec![
+            Table::Classify,
+            Table::Build,
+            Table::Edit,
+            Table::Walk,
+            Table::Raycast,
+            Table::Misses,
+            Table::Scene,
+        ],
     };
     let models = models(&arguments.files)?;
     let mut out = std::io::stdout().lock();
     tables.into_iter().try_for_each(|table| match table {
         Table::Classify => classify::run(&models, &mut out).map_err(unwritable),
         Table::Build => build::run(&models, &mut out).map_err(unwritable),
+        Table::Edit => edit::run(&mut out).map_err(unwritable),
+        Table::Walk => walk::run(&mut out).map_err(unwritable),
         Table::Raycast => raycast::run(&models, &mut out).map_err(unwritable),
         Table::Misses => misses::run(&models, &mut out).map_err(unwritable),
         Table::Scene => scene::run(&mut out).map_err(unwritable),

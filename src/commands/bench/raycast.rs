@@ -15,6 +15,7 @@ use crate::encoding::{DepthRange, DisplayMode, FaceShape, PackedScene, View};
 use crate::kernel::bezier::BezierPatch;
 use crate::kernel::face::{Face, UvRect};
 use crate::kernel::view::{Camera, Projection, StandardView};
+use crate::reference::cast::CastCounts;
 use crate::reference::visibility;
 use crate::scene::records::ModelRecord;
 
@@ -26,6 +27,7 @@ const FRAMES: u32 = 5;
 struct Frame {
     seconds: f64,
     filled: usize,
+    counts: CastCounts,
 }
 
 /// Something that casts frames: the twin, or the renderer on a driver.
@@ -66,6 +68,11 @@ fn table(name: &str, models: &[ModelRecord], caster: &mut Caster, out: &mut impl
             "trimming",
             "solve us",
             "frame/(filled x solve)",
+            "entered/px",
+            "hidden/px",
+            "solves/px",
+            "eval/px",
+            "trims/px",
         ],
     );
     for model in models {
@@ -74,7 +81,7 @@ fn table(name: &str, models: &[ModelRecord], caster: &mut Caster, out: &mut impl
         let (direction, up) = StandardView::Top.directions();
         let projection = Projection::Perspective { fov_y: 0.6 };
         let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
-        let camera = Camera::fit(&scene.bounds(), direction, up, projection, aspect);
+        let camera = tight(&scene, Camera::fit(&scene.bounds(), direction, up, projection, aspect));
         let trimmed = caster(&mut scene, &camera, DisplayMode::Shaded);
         let untrimmed = caster(&mut scene, &camera, DisplayMode::Untrimmed);
         let (mut patch_scene, patch_camera) = one_patch(common_degrees(&faces));
@@ -82,7 +89,7 @@ fn table(name: &str, models: &[ModelRecord], caster: &mut Caster, out: &mut impl
             .map(|f| f.seconds / f.filled.max(1) as f64);
         let per_pixel = trimmed.map(|f| f.seconds / f.filled.max(1) as f64);
         let ratio = |a: Option<f64>, b: Option<f64>| Some(a? / b?);
-        sheet.row([
+        let mut row = vec![
             model.name.clone(),
             scene.counts().0.to_string(),
             number(trimmed.map(|f| 100.0 * f.filled as f64 / f64::from(SIZE[0] * SIZE[1]))),
@@ -92,9 +99,43 @@ fn table(name: &str, models: &[ModelRecord], caster: &mut Caster, out: &mut impl
             number(ratio(trimmed.map(|f| f.seconds), untrimmed.map(|f| f.seconds))),
             number(solve.map(|s| 1e6 * s)),
             number(ratio(per_pixel, solve)),
-        ]);
+        ];
+        let filled = trimmed.map_or(1, |f| f.filled.max(1)) as f64;
+        let counts = trimmed.map(|f| f.counts).filter(|c| c.entered > 0);
+        let counts = counts.map(|c| [c.entered, c.hidden, c.solves, c.evaluations, c.classified]);
+        row.extend((0..5).map(|k| number(counts.map(|c| c[k] as f64 / filled))));
+        sheet.row(row);
     }
     writeln!(out, "{sheet}")
+}
+
+/// `camera` moved and narrowed until what is seen of the scene touches the border of the picture.
+fn tight(scene: &PackedScene, mut camera: Camera) -> Camera {
+    for _ in 0..3 {
+        let size = [256, 192];
+        let view =
+            View::new(&camera, size, [0.0; 2], depth_of(scene, &camera), cast_flags(DisplayMode::Shaded));
+        let buffer = visibility::draw(scene, &view);
+        let (mut low, mut high) = (DVec2::ONE, DVec2::NEG_ONE);
+        for (k, _) in buffer.fragments.iter().enumerate().filter(|(_, f)| f.words[0] != 0) {
+            let pixel = DVec2::new((k % 256) as f64, (k / 256) as f64) / DVec2::new(256.0, 192.0);
+            let ndc = DVec2::new(2.0 * pixel.x - 1.0, 1.0 - 2.0 * pixel.y);
+            (low, high) = (low.min(ndc), high.max(ndc));
+        }
+        if low.x >= high.x || low.y >= high.y {
+            return camera;
+        }
+        let (right, up, _) = camera.axes();
+        let half = camera.half_extent(f64::from(size[0]) / f64::from(size[1]));
+        let middle = 0.5 * (low + high) * half;
+        let by = right * middle.x + up * middle.y;
+        (camera.eye, camera.target) = (camera.eye + by, camera.target + by);
+        if let Projection::Perspective { fov_y } = &mut camera.projection {
+            let part = (0.5 * (high - low)).max_element() * 1.02;
+            *fov_y = 2.0 * ((0.5 * *fov_y).tan() * part).atan();
+        }
+    }
+    camera
 }
 
 /// The degrees that most patches have.
@@ -141,9 +182,10 @@ fn depth_of(scene: &PackedScene, camera: &Camera) -> DepthRange {
 
 fn twin_frame(scene: &mut PackedScene, camera: &Camera, mode: DisplayMode) -> Option<Frame> {
     let view = View::new(camera, SIZE, [0.0; 2], depth_of(scene, camera), cast_flags(mode));
-    let filled = visibility::draw(scene, &view).fragments.iter().filter(|f| f.words[0] != 0).count();
+    let buffer = visibility::draw(scene, &view);
+    let filled = buffer.fragments.iter().filter(|f| f.words[0] != 0).count();
     let seconds = cpu_per_run(FRAMES, || drop(visibility::draw(scene, &view)));
-    Some(Frame { seconds, filled })
+    Some(Frame { seconds, filled, counts: buffer.counts })
 }
 
 #[cfg(feature = "gpu")]
@@ -176,7 +218,7 @@ fn gpu_frame(
     failed?;
     let words = read_texture(context, &renderer.targets().visibility)?;
     let filled = words.chunks_exact(16).filter(|w| w[..4] != [0; 4]).count();
-    Ok(Frame { seconds, filled })
+    Ok(Frame { seconds, filled, counts: CastCounts::default() })
 }
 
 /// CPU seconds of this process per run of `work`, wall seconds where the system does not tell.

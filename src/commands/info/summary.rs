@@ -188,7 +188,7 @@ impl Info {
         counts.bezier_curves += from.bezier;
         counts.monotone_segments += from.monotone;
         counts.kept_segments += from.kept;
-        counts.interval_segments += from.clipped;
+        counts.interval_segments += face.clipped_count();
         counts.grid_entries += from.entries;
         for patch in &face.patches {
             let (u, v) = (patch.degree_u, patch.degree_v);

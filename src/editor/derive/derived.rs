@@ -56,9 +56,18 @@ impl Derived {
 
     /// Derives everything from the record. Never fails: what went wrong is in [`Self::failure`].
     pub fn of(record: &FaceRecord) -> Self {
+        Self::after(record, None)
+    }
+
+    /// The same for an edited record; quick when `previous` is of the record before the edit.
+    pub fn after(record: &FaceRecord, previous: Option<&Self>) -> Self {
         let loops = record.loops.len();
         let curves = record.loops.iter().map(|l| l.curves.len()).sum();
-        let (face, bounds, failure) = match record.derive() {
+        let derived = match previous.and_then(|p| p.face.as_deref()) {
+            Some(face) => record.derive_after(face),
+            None => record.derive(),
+        };
+        let (face, bounds, failure) = match derived {
             Ok(face) => (Some(Arc::new(face)), None, None),
             Err(error) => {
                 let bounds = Bounds::of(record.surface.points().iter().copied());

@@ -20,6 +20,7 @@ pub use derived::{Derived, Measures};
 use super::EditorSystems;
 use super::diagnostics::RenderFigures;
 use super::object::{AuthoredFace, Changes, DerivedFace, Records, TrimLoop};
+use crate::scene::records::FaceRecord;
 
 /// Adds deriving.
 pub struct DerivePlugin;
@@ -53,6 +54,7 @@ fn derive_changed(
     let mut stale = Vec::new();
     for entity in changed {
         let Ok((authored, derived)) = faces.get(entity) else { continue };
+        let previous = derived.as_ref().map(|d| Arc::clone(&d.0));
         let up_to_date = derived.is_some_and(|derived| {
             let newest = loops.iter_many(&authored.loops).map(|l| l.last_changed());
             let at = derived.last_changed();
@@ -62,15 +64,18 @@ fn derive_changed(
         if up_to_date {
             continue;
         }
-        stale.extend(records.face(entity).map(|record| (entity, record)));
+        stale.extend(records.face(entity).map(|record| (entity, record, previous)));
     }
     // One face is derived here and now; many come from undoing the deletion of many.
+    let derive = |(_, record, previous): &(Entity, FaceRecord, Option<Arc<Derived>>)| {
+        DerivedFace(Arc::new(Derived::after(record, previous.as_deref())))
+    };
     let derived: Vec<DerivedFace> = match stale.as_slice() {
-        [(_, record)] => vec![DerivedFace(Arc::new(Derived::of(record)))],
-        many => many.par_iter().map(|(_, record)| DerivedFace(Arc::new(Derived::of(record)))).collect(),
+        [one] => vec![derive(one)],
+        many => many.par_iter().map(derive).collect(),
     };
     let any = !stale.is_empty();
-    for ((entity, _), derived) in stale.into_iter().zip(derived) {
+    for ((entity, ..), derived) in stale.into_iter().zip(derived) {
         commands.entity(entity).insert(derived);
     }
     if any {

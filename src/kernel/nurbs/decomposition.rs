@@ -59,6 +59,10 @@ impl KnotVector {
 impl<V: Vector> NurbsCurve<V> {
     /// The Bezier pieces over the domain, in order, each with its native parameter interval.
     pub fn to_bezier(&self) -> Vec<(BezierCurve<V>, (f64, f64))> {
+        if self.knots().is_bezier() {
+            let whole = BezierCurve { points: self.points().to_vec(), weights: self.weights().to_vec() };
+            return vec![(whole, self.domain())];
+        }
         let rational = self.is_rational();
         let pieces = self.knots().pieces().into_iter().map(|piece| {
             let (points, weights) = piece.map.apply(self.points(), self.weights(), rational);

@@ -110,6 +110,13 @@ impl KnotVector {
         Self::new(degree, knots)
     }
 
+    /// Whether the knots are those of one Bezier piece: a spline over them is its own decomposition.
+    pub fn is_bezier(&self) -> bool {
+        let (head, tail) = self.as_slice().split_at(self.degree + 1);
+        let same = |knots: &[f64]| knots.iter().all(|k| *k == knots[0]);
+        tail.len() == head.len() && same(head) && same(tail) && self.spans().next().is_some()
+    }
+
     /// Polynomial degree.
     pub fn degree(&self) -> usize {
         self.degree

@@ -9,22 +9,20 @@ use super::oracle;
 use super::pieces::{Piece, PieceList};
 use crate::kernel::bezier::BezierCurve2;
 
-/// How far the pieces reach out of the unit square at most (0: not at all).
-pub fn overshoot(list: &PieceList) -> f64 {
+/// How far some pieces reach out of the unit square at most (0: not at all).
+pub fn overshoot(list: &PieceList, pieces: std::ops::Range<usize>) -> f64 {
     let out = |p: DVec2| (-p).max_element().max((p - 1.0).max_element());
-    list.pieces().iter().map(|piece| out(list.start(piece))).fold(0.0, f64::max)
+    list.pieces()[pieces].iter().map(|piece| out(list.start(piece))).fold(0.0, f64::max)
 }
 
-/// The pieces with everything outside the unit square moved to its border.
-pub fn to_unit_square(list: &PieceList) -> PieceList {
-    let mut result = PieceList::default();
-    for chain in 0..list.chain_count() {
-        for number in list.chain(chain) {
-            clip_piece(list, &list.pieces()[number], &mut result);
-        }
-        result.close_chain();
+/// Moves what the last chain has outside the unit square to its border. Takes the chain away when
+/// nothing else is left.
+pub fn last_chain_to_unit_square(list: &mut PieceList) {
+    let chain = list.take_last_chain();
+    for piece in chain.pieces() {
+        clip_piece(&chain, piece, list);
     }
-    result
+    list.close_chain();
 }
 
 fn clip_piece(list: &PieceList, piece: &Piece, result: &mut PieceList) {

@@ -20,7 +20,7 @@ use crate::kernel::nurbs::NurbsSurface;
 /// Curves flatter than this, in units of the face's size, are lines.
 const STRAIGHT: f64 = 2e-9;
 /// Relative slack when boxes are compared.
-const SLACK: f64 = 1e-6;
+pub(super) const SLACK: f64 = 1e-6;
 
 /// Loops ready for trimming.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +35,26 @@ pub struct TrimLoops {
     pub period: DVec2,
     /// What was repaired.
     pub remarks: Vec<TrimRemark>,
+    /// For each loop what became of it, then of the border of the surface where that stands for a missing
+    /// outer loop. Empty when loops depend on each other or on the surface, as they may on closed ones.
+    pub laid: Vec<LaidLoop>,
+}
+
+/// What became of one loop; see [`TrimLoops::laid`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct LaidLoop {
+    /// Whether it has any extent.
+    pub is_chain: bool,
+    /// Number of its Bezier curves.
+    pub bezier: usize,
+    /// Exact box in native parameters.
+    pub rect: UvRect,
+    /// How far its pieces reached out of the domain before they were cut off.
+    pub overshoot: f64,
+    /// Whether a chain of pieces is left.
+    pub is_kept: bool,
+    /// What was repaired in it.
+    pub remarks: Vec<TrimRemark>,
 }
 
 /// Prepares the loops of a face. Without loops the surface's own border is the only one.
@@ -45,10 +65,13 @@ pub fn prepare(surface: &NurbsSurface, loops: &[LoopRecord]) -> TrimLoops {
     let hull = hull_of_loops(loops);
     let scale = if hull.has_area() { hull.size() } else { rect.size() };
     let mut periods = || *known.get_or_insert_with(|| Periods::of_surface(surface));
-    let mut chains = Vec::new();
+    let (mut chains, mut laid) = (Vec::new(), Vec::with_capacity(loops.len()));
     for (loop_index, record) in loops.iter().enumerate() {
+        let before = remarks.len();
         let mut layer = ChainLayer { surface: rect, scale, periods: &mut periods, remarks: &mut remarks };
-        chains.extend(layer.lay(loop_index, &record.curves));
+        let chain = layer.lay(loop_index, &record.curves);
+        laid.push(LaidLoop::of(chain.as_ref(), remarks[before..].to_vec()));
+        chains.extend(chain);
     }
     let reaches_out = (rect.min - hull.min).max_element() > SLACK * scale.max_element()
         || (hull.max - rect.max).max_element() > SLACK * scale.max_element();
@@ -63,21 +86,47 @@ pub fn prepare(surface: &NurbsSurface, loops: &[LoopRecord]) -> TrimLoops {
         }
         chains.push(rectangle(rect));
     }
-    let bezier = chains.iter().map(|c| c.curves.iter().filter(|c| c.1.is_some()).count()).sum();
-    let arranger = Arranger { rect, periods: known.unwrap_or_default(), remarks: &mut remarks };
-    let (chains, domain) = arranger.arrange(chains);
-    let mut pieces = split(&chains, &domain);
-    let overshoot = clip::overshoot(&pieces);
-    if overshoot > 0.0 {
-        if overshoot > SLACK && known.is_none_or(|p| p.period == DVec2::ZERO) {
-            remarks.push(TrimRemark::BeyondSurface { relative: overshoot });
-        }
-        pieces = clip::to_unit_square(&pieces);
+    if chains.len() > laid.iter().filter(|l| l.is_chain).count() {
+        laid.push(LaidLoop::of(chains.last(), Vec::new()));
     }
-    TrimLoops { domain, pieces, bezier, period: known.unwrap_or_default().period, remarks }
+    if rings || known.is_some() {
+        laid.clear();
+    }
+    let bezier = chains.iter().map(|c| c.curves.iter().filter(|c| c.1.is_some()).count()).sum();
+    let boxes: Vec<UvRect> = chains.iter().map(bounds).collect();
+    let arranger = Arranger { rect, periods: known.unwrap_or_default(), remarks: &mut remarks };
+    let (chains, domain) = arranger.arrange(chains, &boxes);
+    let mut pieces = PieceList::default();
+    let mut splitter = Splitter::new(domain);
+    let mut overshoot = 0.0f64;
+    let mut laid_chains = laid.iter_mut().filter(|l| l.is_chain).zip(&boxes);
+    for chain in &chains {
+        let (beyond, is_kept) = splitter.append(chain, &mut pieces);
+        overshoot = overshoot.max(beyond);
+        if let Some((laid, rect)) = laid_chains.next() {
+            (laid.overshoot, laid.is_kept, laid.rect) = (beyond, is_kept, *rect);
+        }
+    }
+    if overshoot > SLACK && known.is_none_or(|p| p.period == DVec2::ZERO) {
+        remarks.push(TrimRemark::BeyondSurface { relative: overshoot });
+    }
+    TrimLoops { domain, pieces, bezier, period: known.unwrap_or_default().period, remarks, laid }
 }
 
-fn hull_of_loops(loops: &[LoopRecord]) -> UvRect {
+impl LaidLoop {
+    pub(super) fn of(chain: Option<&Chain>, remarks: Vec<TrimRemark>) -> Self {
+        Self {
+            is_chain: chain.is_some(),
+            bezier: chain.map_or(0, |c| c.curves.iter().filter(|c| c.1.is_some()).count()),
+            rect: UvRect::EMPTY,
+            overshoot: 0.0,
+            is_kept: false,
+            remarks,
+        }
+    }
+}
+
+pub(super) fn hull_of_loops(loops: &[LoopRecord]) -> UvRect {
     let mut hull = UvRect::EMPTY;
     for curve in loops.iter().flat_map(|l| &l.curves) {
         curve.points().iter().for_each(|p| hull.include(*p));
@@ -92,7 +141,7 @@ fn rectangle(rect: UvRect) -> Chain {
 }
 
 /// Exact box of a chain.
-fn bounds(chain: &Chain) -> UvRect {
+pub(super) fn bounds(chain: &Chain) -> UvRect {
     let mut rect = UvRect::EMPTY;
     let mut splitter = MonotoneSplitter::default();
     for (curve, _) in &chain.curves {
@@ -109,20 +158,37 @@ fn shifted(chain: &Chain, by: DVec2) -> Chain {
     Chain { curves, ..*chain }
 }
 
-/// Monotone pieces of all chains, normalised to `domain`.
-fn split(chains: &[Chain], domain: &UvRect) -> PieceList {
-    let mut list = PieceList::default();
-    let mut splitter = MonotoneSplitter::default();
-    let mut points = Vec::new();
-    for chain in chains {
+/// Turns chains into monotone pieces normalised to a domain.
+pub(super) struct Splitter {
+    domain: UvRect,
+    splitter: MonotoneSplitter,
+    points: Vec<DVec2>,
+}
+
+impl Splitter {
+    pub fn new(domain: UvRect) -> Self {
+        Self { domain, splitter: MonotoneSplitter::default(), points: Vec::new() }
+    }
+
+    /// Adds the pieces of a chain, cut to the unit square. Says how far they reached out of it, and
+    /// whether anything is left.
+    pub fn append(&mut self, chain: &Chain, list: &mut PieceList) -> (f64, bool) {
+        let before = list.chain_count();
         for (curve, source) in &chain.curves {
-            points.clear();
-            points.extend(curve.points.iter().map(|p| domain.normalise(*p)));
-            splitter.split(&points, &curve.weights, STRAIGHT, |p, w| list.push(p, w, *source));
+            self.points.clear();
+            self.points.extend(curve.points.iter().map(|p| self.domain.normalise(*p)));
+            self.splitter.split(&self.points, &curve.weights, STRAIGHT, |p, w| list.push(p, w, *source));
         }
         list.close_chain();
+        if list.chain_count() == before {
+            return (0.0, false);
+        }
+        let overshoot = clip::overshoot(list, list.chain(before));
+        if overshoot > 0.0 {
+            clip::last_chain_to_unit_square(list);
+        }
+        (overshoot, list.chain_count() > before)
     }
-    list
 }
 
 struct Arranger<'a> {
@@ -133,12 +199,13 @@ struct Arranger<'a> {
 
 impl Arranger<'_> {
     /// All chains closed and in one place, with the domain.
-    fn arrange(mut self, chains: Vec<Chain>) -> (Vec<Chain>, UvRect) {
-        let (rings, closed): (Vec<_>, Vec<_>) = chains.into_iter().partition(|c| c.turns != DVec2::ZERO);
-        let boxes: Vec<UvRect> = closed.iter().map(bounds).collect();
-        if !rings.is_empty() {
-            return self.with_rings(rings, closed, &boxes);
+    fn arrange(mut self, chains: Vec<Chain>, boxes: &[UvRect]) -> (Vec<Chain>, UvRect) {
+        if chains.iter().any(|c| c.turns != DVec2::ZERO) {
+            let (rings, closed): (Vec<_>, Vec<_>) =
+                chains.into_iter().zip(boxes).partition(|(c, _)| c.turns != DVec2::ZERO);
+            return self.with_rings(rings.into_iter().unzip(), closed.into_iter().unzip());
         }
+        let closed = chains;
         let all = boxes.iter().fold(UvRect::EMPTY, |a, b| a.union(*b));
         let mut domain = self.on_surface(all);
         if self.periods.period == DVec2::ZERO || closed.len() < 2 {
@@ -220,9 +287,8 @@ impl Arranger<'_> {
 
     fn with_rings(
         &mut self,
-        rings: Vec<Chain>,
-        closed: Vec<Chain>,
-        boxes: &[UvRect],
+        (rings, ring_boxes): (Vec<Chain>, Vec<UvRect>),
+        (closed, boxes): (Vec<Chain>, Vec<UvRect>),
     ) -> (Vec<Chain>, UvRect) {
         // Rings that go round both ways are taken by the direction of u.
         let axis = if rings[0].turns.x != 0.0 { 0 } else { 1 };
@@ -230,10 +296,9 @@ impl Arranger<'_> {
         let period = self.periods.period[axis];
         let mut domain = self.rect;
         domain.max[axis] = domain.min[axis] + period;
-        let ring_boxes: Vec<UvRect> = rings.iter().map(bounds).collect();
         let close_high = self.close_high(&rings, axis);
         // With an even number of rings the border they close along cancels out: cut there.
-        let all = ring_boxes.iter().chain(boxes).fold(UvRect::EMPTY, |a, b| a.union(*b));
+        let all = ring_boxes.iter().chain(&boxes).fold(UvRect::EMPTY, |a, b| a.union(*b));
         if rings.len().is_multiple_of(2) {
             domain.min[other] = all.min[other];
             domain.max[other] = all.max[other];
@@ -249,7 +314,7 @@ impl Arranger<'_> {
             self.remarks.push(TrimRemark::OpenByPeriod { loop_index: ring.loop_index });
             chains.push(close_ring(ring, rect, axis, period, &domain, border));
         }
-        for (chain, rect) in closed.iter().zip(boxes) {
+        for (chain, rect) in closed.iter().zip(&boxes) {
             chains.extend(self.places(rect, &domain).into_iter().map(|by| shifted(chain, by)));
         }
         (chains, domain)

@@ -23,6 +23,7 @@ pub mod pack;
 pub mod pieces;
 pub mod record;
 pub mod remark;
+pub mod resume;
 pub mod segment;
 pub mod tally;
 pub mod validity;
@@ -35,6 +36,7 @@ pub use loop_record::{EdgeId, LoopRecord, LoopRole};
 pub use pack::PackedSegments;
 pub use pieces::{Piece, PieceList};
 pub use remark::TrimRemark;
+pub use resume::Splice;
 pub use segment::{Segment, SegmentSet};
 pub use tally::{Counters, Tally};
 

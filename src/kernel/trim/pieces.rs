@@ -59,6 +59,37 @@ impl PieceList {
         self.chain_ends.push(self.pieces.len() as u32);
     }
 
+    /// Takes the last chain away and gives it as a list of its own.
+    pub fn take_last_chain(&mut self) -> Self {
+        let mut chain = Self::default();
+        if let Some(last) = self.chain_count().checked_sub(1) {
+            chain.append_chains(self, last..last + 1);
+            let first = self.chain(last).start;
+            let place = self.pieces[first].first as usize;
+            self.chain_ends.truncate(last);
+            self.pieces.truncate(first);
+            self.points.truncate(place);
+            self.weights.truncate(place);
+        }
+        chain
+    }
+
+    /// Adds whole chains of another list.
+    pub fn append_chains(&mut self, other: &Self, chains: std::ops::Range<usize>) {
+        if chains.is_empty() {
+            return;
+        }
+        let (first, end) = (other.chain(chains.start).start, other.chain(chains.end - 1).end);
+        let from = other.pieces[first].first as usize;
+        let to = other.pieces.get(end).map_or(other.points.len(), |p| p.first as usize);
+        let (place, number) = (self.points.len() as u32, self.pieces.len() as u32);
+        self.points.extend_from_slice(&other.points[from..to]);
+        self.weights.extend_from_slice(&other.weights[from..to]);
+        let moved = |p: &Piece| Piece { first: p.first - from as u32 + place, ..*p };
+        self.pieces.extend(other.pieces[first..end].iter().map(moved));
+        self.chain_ends.extend(other.chain_ends[chains].iter().map(|e| e - first as u32 + number));
+    }
+
     /// All pieces, chain after chain, in loop order.
     pub fn pieces(&self) -> &[Piece] {
         &self.pieces

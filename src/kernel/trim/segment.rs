@@ -7,6 +7,7 @@
 use glam::DVec2;
 
 use super::pieces::{Piece, PieceList};
+use super::resume::Splice;
 
 /// Vertices nearer than this to the border of the unit square are put on it, so that the sides of a
 /// face that follow the border need no entries in the grid.
@@ -68,6 +69,25 @@ impl SegmentSet {
             link(&mut segments, first);
         }
         Self { segments }
+    }
+
+    /// The segments of replaced `pieces`, which belong to the replaced `chains`. A chain that lost all its
+    /// segments or got its first ones is replaced as a whole.
+    pub fn splices(before: &Self, after: &Self, pieces: &[Splice], chains: &[Splice]) -> Vec<Splice> {
+        let of = |splice: &Splice| Splice {
+            before: before.of_pieces(&splice.before),
+            after: after.of_pieces(&splice.after),
+        };
+        let splices = pieces.iter().zip(chains).map(|(pieces, chain)| {
+            let whole = of(chain);
+            if whole.before.is_empty() == whole.after.is_empty() { of(pieces) } else { whole }
+        });
+        splices.collect()
+    }
+
+    fn of_pieces(&self, pieces: &std::ops::Range<usize>) -> std::ops::Range<usize> {
+        let at = |piece: usize| self.segments.partition_point(|s| (s.piece as usize) < piece);
+        at(pieces.start)..at(pieces.end)
     }
 
     fn segment(list: &PieceList, piece: &Piece, number: u32) -> Option<Segment> {

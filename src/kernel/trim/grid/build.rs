@@ -50,30 +50,34 @@ const MAX_SIDE: f64 = 4096.0;
 
 /// Builds cells and entries for the segments of a face.
 pub fn build(set: &SegmentSet, packed: &PackedSegments, options: &GridOptions) -> Built {
-    let count = set.segments.len();
-    if count == 0 {
+    if set.segments.is_empty() {
         return Built::default();
     }
-    let per_segment = options.cells_per_segment.unwrap_or(CELLS_PER_SEGMENT);
-    let side = (per_segment * count as f64).sqrt().round().clamp(1.0, MAX_SIDE) as u32;
-    let frame = Frame::outer(side, side);
-    let header = GridHeader {
-        columns: side,
-        rows: side,
-        scale_u: side as f32,
-        scale_v: side as f32,
-        flags: if options.rule == crate::kernel::trim::FillRule::NonZero { FLAG_NON_ZERO } else { 0 },
-        ..GridHeader::default()
-    };
-    let spans = Spans::new(&frame, set, packed);
-    let lists = Lists::new(&frame, set, packed, &spans);
+    let header = header(set.segments.len(), options);
+    let frame = Frame::outer(header.columns, header.rows);
+    let spans = Spans::new(&frame, set, packed, |_| true);
+    let lists = Lists::new(&frame, set, packed, &spans, |_| true);
     let mut built = Built { header, cells: Vec::new(), entries: Vec::new() };
     let mut refiner = Refiner::new(set, packed, options);
     refiner.write(&frame, lists, &mut built);
     built
 }
 
-/// Spans of all segments, row by row.
+/// Header of the grid of `count` segments.
+pub(super) fn header(count: usize, options: &GridOptions) -> GridHeader {
+    let per_segment = options.cells_per_segment.unwrap_or(CELLS_PER_SEGMENT);
+    let side = (per_segment * count as f64).sqrt().round().clamp(1.0, MAX_SIDE) as u32;
+    GridHeader {
+        columns: side,
+        rows: side,
+        scale_u: side as f32,
+        scale_v: side as f32,
+        flags: if options.rule == crate::kernel::trim::FillRule::NonZero { FLAG_NON_ZERO } else { 0 },
+        ..GridHeader::default()
+    }
+}
+
+/// Spans of segments, row by row.
 pub(super) struct Spans {
     spans: Vec<Span>,
     /// Of each segment: its first row and the position of the span in that row.
@@ -81,13 +85,19 @@ pub(super) struct Spans {
 }
 
 impl Spans {
-    fn new(frame: &Frame, set: &SegmentSet, packed: &PackedSegments) -> Self {
+    /// Spans of the segments in whose rows (first, last) `wanted` is interested.
+    pub fn new(
+        frame: &Frame,
+        set: &SegmentSet,
+        packed: &PackedSegments,
+        wanted: impl Fn((i32, i32)) -> bool,
+    ) -> Self {
         let count = set.segments.len();
         let mut result = Self { spans: Vec::with_capacity(2 * count), rows: Vec::with_capacity(count + 1) };
         for (segment, word) in set.segments.iter().zip(&packed.words) {
             let rows = span::rows(frame, segment);
             result.rows.push((rows.0, result.spans.len() as u32));
-            if rows.0 <= rows.1 {
+            if rows.0 <= rows.1 && wanted(rows) {
                 span::append(frame, segment, *word, &packed.data, rows, &mut result.spans);
             }
         }
@@ -120,7 +130,14 @@ pub(super) struct Lists {
 }
 
 impl Lists {
-    fn new(frame: &Frame, set: &SegmentSet, packed: &PackedSegments, spans: &Spans) -> Self {
+    /// The lists of the `wanted` rows; `spans` has all segments that reach into these.
+    pub fn new(
+        frame: &Frame,
+        set: &SegmentSet,
+        packed: &PackedSegments,
+        spans: &Spans,
+        wanted: impl Fn(i32) -> bool,
+    ) -> Self {
         let (columns, rows) = (frame.columns, frame.rows);
         let cells = (columns * rows) as usize;
         let mut first = vec![0u32; cells + 1];
@@ -130,7 +147,7 @@ impl Lists {
         for (number, segment) in set.segments.iter().enumerate() {
             let top = frame.row(segment.ends[3]);
             let sign = if segment.down { -1 } else { 1 };
-            for (row, span) in spans.of(number) {
+            for (row, span) in spans.of(number).filter(|(row, _)| wanted(*row)) {
                 let base = (row * columns) as usize;
                 for column in span.first.max(0)..=span.last.min(columns - 1) {
                     first[base + column as usize + 1] += 1;
@@ -156,7 +173,7 @@ impl Lists {
         for (number, segment) in set.segments.iter().enumerate() {
             let (bottom, top) = (frame.row(segment.ends[1]), frame.row(segment.ends[3]));
             let sign = if segment.down { -1 } else { 1 };
-            for (row, span) in spans.of(number) {
+            for (row, span) in spans.of(number).filter(|(row, _)| wanted(*row)) {
                 for column in span.first.max(0)..=span.last.min(columns - 1) {
                     let cell = (row * columns + column) as usize;
                     let mut word = packed.words[number];

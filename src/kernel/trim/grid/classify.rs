@@ -13,17 +13,24 @@ use crate::kernel::trim::{BELOW_ONE, BORDER};
 
 /// Whether `(u, v)` (normalised) is inside the face of `grid`.
 pub fn classify(grid: &GridView, u: f32, v: f32, tally: &mut impl Tally) -> bool {
+    classify_listed(grid, u, v, tally).0
+}
+
+/// The same, and whether the cell of the point lists any segments: if not, no curve is near.
+#[inline]
+pub fn classify_listed(grid: &GridView, u: f32, v: f32, tally: &mut impl Tally) -> (bool, bool) {
     let header = &grid.header;
     let (low, high) = (-BORDER, 1.0 + BORDER);
     if header.columns == 0 || !(u >= low && u <= high && v >= low && v <= high) {
-        return false;
+        return (false, false);
     }
-    let winding = winding_number(grid, u.clamp(0.0, BELOW_ONE), v.clamp(0.0, BELOW_ONE), tally);
-    if header.flags & FLAG_NON_ZERO != 0 { winding != 0 } else { winding & 1 != 0 }
+    let (winding, listed) = winding_number(grid, u.clamp(0.0, BELOW_ONE), v.clamp(0.0, BELOW_ONE), tally);
+    let inside = if header.flags & FLAG_NON_ZERO != 0 { winding != 0 } else { winding & 1 != 0 };
+    (inside, listed)
 }
 
-/// The winding number of `(u, v)`, both in `[0, 1)`.
-fn winding_number(grid: &GridView, u: f32, v: f32, tally: &mut impl Tally) -> i32 {
+/// The winding number of `(u, v)`, both in `[0, 1)`, and whether its cell lists segments.
+fn winding_number(grid: &GridView, u: f32, v: f32, tally: &mut impl Tally) -> (i32, bool) {
     let header = &grid.header;
     // Position inside the block in units of cells, then inside the cell.
     let (mut x, mut y) = (u * header.scale_u, v * header.scale_v);
@@ -57,7 +64,7 @@ fn winding_number(grid: &GridView, u: f32, v: f32, tally: &mut impl Tally) -> i3
         }
         at += STRIDE;
     }
-    winding
+    (winding, end > first)
 }
 
 /// Entries asked without a branch between them.

@@ -9,11 +9,13 @@ pub mod layout;
 mod leaves;
 mod refine;
 pub mod span;
+pub mod update;
 
 pub use build::GridOptions;
-pub use classify::classify;
+pub use classify::{classify, classify_listed};
 pub use layout::{GridHeader, GridView};
 pub use leaves::GridLeaf;
+pub use update::SegmentEdit;
 
 use glam::Vec2;
 
@@ -38,13 +40,27 @@ pub struct ParityGrid {
 impl ParityGrid {
     /// Builds the grid of a face from its segments and their records.
     pub fn new(set: &SegmentSet, packed: &PackedSegments, options: &GridOptions) -> Self {
-        let built = build::build(set, packed, options);
-        Self { header: built.header, cells: built.cells, entries: built.entries, data: packed.data.clone() }
+        Self::of(build::build(set, packed, options), packed)
     }
 
-    /// Builds it anew after an edit.
-    pub fn rebuild(&mut self, set: &SegmentSet, packed: &PackedSegments, options: &GridOptions) {
-        *self = Self::new(set, packed, options);
+    /// The grid of an edited face; only rows that changed segments touch are built again. Equals
+    /// [`Self::new`] bit for bit.
+    pub fn after_edit(
+        &self,
+        set: &SegmentSet,
+        packed: &PackedSegments,
+        edit: &SegmentEdit,
+        options: &GridOptions,
+    ) -> Self {
+        let before = (&self.header, &self.cells[..], &self.entries[..]);
+        match update::update(before, set, packed, edit, options) {
+            Some(built) => Self::of(built, packed),
+            None => Self::new(set, packed, options),
+        }
+    }
+
+    fn of(built: build::Built, packed: &PackedSegments) -> Self {
+        Self { header: built.header, cells: built.cells, entries: built.entries, data: packed.data.clone() }
     }
 
     /// What [`classify()`] reads.

@@ -5,11 +5,13 @@
 //! the same rule as for the outer block decides bits and numbers; a neighbour that the parent
 //! does not list keeps the parent's bit.
 
+use std::ops::Range;
+
 use super::build::{Built, GridOptions, Lists};
 use super::frame::Frame;
 use super::layout::*;
 use super::span::{self, Span};
-use crate::kernel::trim::pack::PackedSegments;
+use crate::kernel::trim::pack::{Move, PackedSegments};
 use crate::kernel::trim::segment::SegmentSet;
 
 /// A segment in the list of a cell.
@@ -35,25 +37,101 @@ pub(super) struct Refiner<'a> {
     packed: &'a PackedSegments,
     options: &'a GridOptions,
     /// Blocks still to be written: the entry word that will hold their place, and what is in them.
-    waiting: Vec<(usize, Frame, Lists)>,
+    waiting: Vec<(usize, Block)>,
+    /// Where blocks that an edit left alone are copied from.
+    source: Option<Source<'a>>,
+}
+
+/// A block to be written.
+enum Block {
+    /// From its lists.
+    Listed(Frame, Lists),
+    /// As in the source: index of its first cell there, and its k.
+    Copied(usize, u32),
+}
+
+/// The grid before an edit.
+#[derive(Clone, Copy)]
+pub(super) struct Source<'a> {
+    /// Its cell words.
+    pub cells: &'a [u32],
+    /// Its entry words.
+    pub entries: &'a [u32],
+    /// Where records went since.
+    pub moves: &'a [Move],
 }
 
 impl<'a> Refiner<'a> {
     pub fn new(set: &'a SegmentSet, packed: &'a PackedSegments, options: &'a GridOptions) -> Self {
-        Self { set, packed, options, waiting: Vec::new() }
+        Self { set, packed, options, waiting: Vec::new(), source: None }
     }
 
     /// Writes the outer block and everything below it.
     pub fn write(&mut self, frame: &Frame, lists: Lists, built: &mut Built) {
-        self.block(frame, &lists, built);
-        while let Some((slot, frame, lists)) = self.waiting.pop() {
+        self.listed(frame, &lists, 0..lists.winding.len(), built);
+        self.finish(built);
+    }
+
+    /// The same with the rows that are not `touched` as in `source`.
+    pub fn rewrite(
+        &mut self,
+        frame: &Frame,
+        lists: Lists,
+        touched: &[bool],
+        source: Source<'a>,
+        built: &mut Built,
+    ) {
+        self.source = Some(source);
+        let columns = frame.columns as usize;
+        for (row, touched) in touched.iter().enumerate() {
+            let cells = row * columns..(row + 1) * columns;
+            if *touched {
+                self.listed(frame, &lists, cells, built);
+            } else {
+                self.copied(source, cells, built);
+            }
+        }
+        self.finish(built);
+    }
+
+    /// Ends the outer block and writes those that wait.
+    fn finish(&mut self, built: &mut Built) {
+        built.cells.push(cell_word(built.entries.len() as u32, false, 0));
+        while let Some((slot, block)) = self.waiting.pop() {
             built.entries[slot] = built.cells.len() as u32;
-            self.block(&frame, &lists, built);
+            match (block, self.source) {
+                (Block::Listed(frame, lists), _) => {
+                    self.listed(&frame, &lists, 0..lists.winding.len(), built);
+                }
+                (Block::Copied(first, k), Some(source)) => {
+                    self.copied(source, first..first + (k * k) as usize, built);
+                }
+                (Block::Copied(..), None) => {}
+            }
+            built.cells.push(cell_word(built.entries.len() as u32, false, 0));
         }
     }
 
-    fn block(&mut self, frame: &Frame, lists: &Lists, built: &mut Built) {
-        for cell in 0..lists.winding.len() {
+    /// Writes cells as they are in `source`.
+    fn copied(&mut self, source: Source, cells: Range<usize>, built: &mut Built) {
+        for index in cells {
+            let word = source.cells[index];
+            let first = (word >> CELL_SHIFT) as usize;
+            let place = built.entries.len();
+            built.cells.push((place as u32) << CELL_SHIFT | word & ((1 << CELL_SHIFT) - 1));
+            if word & CELL_REFINED != 0 {
+                let (child, k) = (source.entries[first] as usize, source.entries[first + 1]);
+                built.entries.extend([0, k]);
+                self.waiting.push((place, Block::Copied(child, k)));
+            } else {
+                let end = (source.cells[index + 1] >> CELL_SHIFT) as usize;
+                built.entries.extend(source.entries[first..end].iter().map(|e| moved(*e, source.moves)));
+            }
+        }
+    }
+
+    fn listed(&mut self, frame: &Frame, lists: &Lists, cells: Range<usize>, built: &mut Built) {
+        for cell in cells {
             let entries = &lists.entries[lists.first[cell] as usize..lists.first[cell + 1] as usize];
             let place = built.entries.len();
             let child = self.child(frame, cell as i32, entries, lists.winding[cell]);
@@ -61,12 +139,11 @@ impl<'a> Refiner<'a> {
             match child {
                 Some((child_frame, child_lists)) => {
                     built.entries.extend([0, child_frame.columns as u32]);
-                    self.waiting.push((place, child_frame, child_lists));
+                    self.waiting.push((place, Block::Listed(child_frame, child_lists)));
                 }
                 None => built.entries.extend(entries.iter().map(|e| e.word)),
             }
         }
-        built.cells.push(cell_word(built.entries.len() as u32, false, 0));
     }
 
     /// The child block of a cell, if the cell is crowded and a block would thin its list out.
@@ -138,6 +215,13 @@ impl<'a> Refiner<'a> {
         }
         lists
     }
+}
+
+/// An entry word with the address that its record has after `moves`.
+fn moved(entry: u32, moves: &[Move]) -> u32 {
+    let address = entry >> ENTRY_SHIFT;
+    let last = moves.iter().rev().find(|m| m.from <= address);
+    entry.wrapping_add(last.map_or(0, |m| m.by) << ENTRY_SHIFT)
 }
 
 /// An entry of the parent, placed in the child block.
