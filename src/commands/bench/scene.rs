@@ -2,7 +2,7 @@
 //!
 //! The quilt has round numbers; the shaken quilt has four cubic trim curves to a face and no two numbers
 //! alike, so that nothing but the digits themselves can be packed. Raw is 8 bytes for each number that is
-//! not implied (weights of 1 are).
+//! not implied (weights of 1 are). A second table tells what the document's part of a drag costs.
 
 use std::cell::RefCell;
 use std::io::{self, Write};
@@ -13,10 +13,12 @@ use glam::{DVec2, DVec3};
 
 use super::sheet::{Sheet, number};
 use crate::kernel::nurbs::{KnotVector, NurbsCurve2};
+use crate::kernel::primitives::outline;
 use crate::scene::file::{self, Packing, SaveOptions};
 use crate::scene::operation::random::RandomOperations;
-use crate::scene::records::{FaceRecord, LoopRecord, LoopRole};
-use crate::scene::{SceneRecord, demo};
+use crate::scene::operation::{Operation, PointId};
+use crate::scene::records::{FaceRecord, LoopRecord, LoopRole, ModelRecord};
+use crate::scene::{FaceId, FaceView, SceneRecord, demo};
 
 /// Faces of the largest scene.
 const FACES: usize = 50_000;
@@ -40,7 +42,48 @@ pub fn run(out: &mut impl Write) -> io::Result<()> {
             sheet.row(row(name, &scene, packing, kind, folder.path())?);
         }
     }
+    writeln!(out, "{sheet}")?;
+    let mut sheet = Sheet::new(
+        "One face while it is dragged, one thread, us: the edit of one control point, applying it, checking all loops",
+        &["loops", "curves", "perform", "apply", "check", "problems"],
+    );
+    for (loops, curves) in [(1, 100), (1, 1000), (1, 10_000), (1000, 1)] {
+        sheet.row(drag_row(loops, curves));
+    }
     writeln!(out, "{sheet}")
+}
+
+/// A wavy loop of cubics, or many round holes.
+fn drag_row(loops: usize, curves: usize) -> Vec<String> {
+    let mut face = demo::holes(if loops > 1 { loops } else { 1 });
+    if loops == 1 {
+        let rosette = outline::rosette((curves / 10) as f64, 0.2, 0.0);
+        let path = move |t: f64| DVec2::splat(0.5) + 0.35 * rosette(t);
+        face.loops[1] = LoopRecord::new(LoopRole::Inner, outline::smooth(path, curves));
+    }
+    let mut scene = SceneRecord::of_model(ModelRecord { faces: vec![face], ..ModelRecord::default() });
+    let points = vec![PointId { trim_loop: 1, curve: 0, point: 1 }];
+    let mut by = DVec2::splat(1e-6);
+    let mut times = [f64::INFINITY; 3];
+    let mut problems = 0;
+    for _ in 0..50 {
+        by = -by;
+        let operation =
+            Operation::MovePoints { face: FaceId::default(), points: points.clone(), by, beyond: false };
+        let begun = Instant::now();
+        let edit = operation.perform(&scene);
+        times[0] = times[0].min(begun.elapsed().as_secs_f64());
+        let begun = Instant::now();
+        let applied = edit.is_ok_and(|edit| edit.apply(&mut scene).is_ok());
+        times[1] = times[1].min(begun.elapsed().as_secs_f64());
+        let view = FaceView::of(&scene.models[0].faces[0]);
+        let begun = Instant::now();
+        problems = if applied { view.problems().len() } else { usize::MAX };
+        times[2] = times[2].min(begun.elapsed().as_secs_f64());
+    }
+    let us = |k: usize| number(Some(1e6 * times[k]));
+    let curves = scene.models[0].faces[0].loops.iter().map(|l| l.curves.len()).sum::<usize>();
+    vec![(loops + 1).to_string(), curves.to_string(), us(0), us(1), us(2), problems.to_string()]
 }
 
 fn row(

@@ -2,6 +2,7 @@
 
 pub mod analytic;
 pub mod conic;
+pub mod lettering;
 pub mod outline;
 pub mod sweep;
 

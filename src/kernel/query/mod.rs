@@ -8,7 +8,6 @@ pub mod bounds_tree;
 pub mod carrier;
 pub mod closest;
 pub mod fit;
-pub mod freehand;
 pub mod lift;
 pub mod line_roots;
 pub mod locate;

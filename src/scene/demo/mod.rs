@@ -6,7 +6,6 @@
 
 mod assembly;
 mod coin;
-mod lettering;
 mod panels;
 mod pedestal;
 mod plate;
@@ -22,7 +21,7 @@ pub use plate::holes;
 use std::path::Path;
 
 use super::records::ModelRecord;
-use crate::kernel::primitives::outline;
+use crate::kernel::primitives::{lettering, outline};
 
 /// Panels at most in a scene asked for by name.
 const MOST_PANELS: usize = 1_000_000;

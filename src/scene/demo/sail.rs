@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3};
 
 use super::assembly::Assembly;
-use super::lettering::{HEIGHT, place, word};
+use super::lettering::{HEIGHT, place, text};
 use super::outline::{bezier, circle};
 use super::shape::sheet;
 use crate::kernel::nurbs::NurbsCurve2;
@@ -22,7 +22,7 @@ pub fn add(assembly: &mut Assembly) {
         let radius = 92.0 - 20.0 * (PI * t).sin() * (0.6 + 0.4 * (TAU * s).cos()) + 16.0 * t * t;
         DVec3::new(radius * angle.cos(), radius * angle.sin(), 3.0 + 118.0 * t)
     });
-    let (letters, width) = word();
+    let (letters, width) = text("HAIRLINE").expect("capitals have glyphs");
     // The sheet is about 2.3 times as long as it is high.
     let scale = DVec2::new(0.56 / width, 2.1 * 0.56 / width);
     let origin = DVec2::new(0.5 - 0.5 * width * scale.x, 0.78 - 0.5 * HEIGHT * scale.y);

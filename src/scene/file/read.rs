@@ -12,6 +12,9 @@ use super::{FORMAT, ZSTANDARD, migration};
 use crate::scene::document::SceneRecord;
 use crate::scene::records::{FaceRecord, ModelRecord};
 
+/// Text of a scene at most, bytes: a few bytes can be made to unpack to any number of them.
+const MOST_UNPACKED: u64 = 8 << 30;
+
 /// Why bytes are no scene.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReadError {
@@ -72,7 +75,11 @@ fn unpack(mut bytes: &[u8]) -> Result<Vec<u8>, ReadError> {
     while !bytes.is_empty() {
         let fail = |reason: String| ReadError::Packed { reason };
         let mut decoder = StreamingDecoder::new(&mut bytes).map_err(|e| fail(e.to_string()))?;
-        decoder.read_to_end(&mut out).map_err(|e| fail(e.to_string()))?;
+        let room = MOST_UNPACKED.saturating_sub(out.len() as u64);
+        decoder.by_ref().take(room + 1).read_to_end(&mut out).map_err(|e| fail(e.to_string()))?;
+        if out.len() as u64 > MOST_UNPACKED {
+            return Err(fail(format!("more than {} GiB when unpacked", MOST_UNPACKED >> 30)));
+        }
         let (told, found) = {
             let frame = &decoder.decoder;
             (frame.get_checksum_from_data(), frame.get_calculated_checksum())
@@ -211,7 +218,7 @@ fn of_serde(text: &str, range: &Range<usize>, error: &serde_json::Error) -> Read
     let message = error.to_string();
     // Its own line and column are of the part; ours are of the file.
     let reason = message.split(" at line ").next().unwrap_or(&message).to_owned();
-    damaged(text, at.saturating_sub(1).max(range.start), reason)
+    damaged(text, at, reason)
 }
 
 fn damaged(text: &str, at: usize, reason: String) -> ReadError {

@@ -72,7 +72,7 @@ pub fn parse(text: &str) -> Result<Vec<Operation>, ScriptError> {
         let step = format!("{{{name}:{{{}}}}}", fields.join(","));
         serde_json::from_str::<Operation>(&step).map_err(|error| {
             let at = spans::offset(&step, error.line(), error.column());
-            let path = spans::path_at(&step, at.saturating_sub(1));
+            let path = spans::path_at(&step, at);
             let field = path.strip_prefix(op.as_str()).unwrap_or_default().trim_start_matches('.');
             let message = error.to_string();
             let reason = message.split(" at line ").next().unwrap_or(&message);
@@ -128,7 +128,7 @@ mod tests {
             (r#"{"op": "fly", "face": 1}"#, "step 2 (fly), line 2: there is no operation `fly`"),
             (r#"{"op": "untrim"}"#, "step 2 (untrim), line 2: missing field `face`"),
             (r#"{"op": "untrim", "face": 0}"#, "step 2 (untrim), line 2: face: faces count from 1"),
-            (r#"{"op": "untrim", "face": 1, "x": 2}"#, "step 2 (untrim), line 2: x: unknown field `x`"),
+            (r#"{"op": "untrim", "face": 1, "x": 2}"#, "step 2 (untrim), line 2: unknown field `x`"),
             (
                 r#"{"op": "set_weight", "face": 1, "points": [{"loop": 1, "curve": "a", "point": 1}], "weight": 1}"#,
                 "step 2 (set_weight), line 2: points[1].curve: invalid type: string \"a\"",

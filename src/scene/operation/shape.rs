@@ -6,9 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::address::Subject;
 use super::error::{OperationError, Place, Problem};
 use super::limits;
-use crate::kernel::nurbs::NurbsCurve2;
-use crate::kernel::primitives::outline;
-use crate::kernel::query::freehand;
+use crate::kernel::nurbs::{NurbsCurve2, freehand};
+use crate::kernel::primitives::{lettering, outline};
 
 /// The shape of a new loop, in native surface parameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,12 +27,22 @@ pub enum Shape {
     },
     /// Straight lines through `points` and back to the first; three or more.
     Polyline { points: Vec<DVec2> },
-    /// A smooth closed curve near `points` drawn by hand, within `tolerance` as a fraction of the domain
+    /// Smooth curves near `points` drawn by hand, closed, with its corners, within `tolerance` as a fraction of the domain
     /// (1/1000).
     Freehand {
         points: Vec<DVec2>,
         #[serde(default = "hand")]
         tolerance: f64,
+    },
+    /// The outlines of `text` (capitals, digits, `+-./` and blanks), one loop each and one for each counter:
+    /// capitals `height` high in v, the lower left corner at `at`. `width` in u makes the text that wide;
+    /// without it letters are as wide in u as they are made, in proportion to their height.
+    Text {
+        text: String,
+        at: DVec2,
+        height: f64,
+        #[serde(default)]
+        width: Option<f64>,
     },
 }
 
@@ -51,6 +60,7 @@ impl Shape {
             Self::Ellipse { .. } => "ellipse",
             Self::Polyline { .. } => "polyline",
             Self::Freehand { .. } => "freehand curve",
+            Self::Text { .. } => "text",
         }
     }
 
@@ -96,14 +106,45 @@ impl Shape {
                 let domain = subject.view.domain();
                 let points: Vec<DVec2> =
                     points.iter().map(|p| Ok(domain.normalise(point(p)?))).collect::<Result<_, _>>()?;
-                let curve = freehand::closed_curve(&points, *tolerance);
-                let curve =
-                    curve.ok_or_else(|| place.refused("a curve needs at least three different points"))?;
-                checked(vec![curve.map_points(|p: DVec2| domain.native(p))], point)?
+                let curves = freehand::closed_chain(&points, *tolerance);
+                if curves.is_empty() {
+                    return Err(place.refused("a curve needs at least three points apart from each other"));
+                }
+                let native = |p: DVec2| domain.native(p);
+                checked(curves.iter().map(|c| c.map_points(native)).collect(), point)?
+            }
+            Self::Text { text, at, height, width } => {
+                return outlines(place, text, (*at, *height, *width), point);
             }
         };
         Ok(vec![curves])
     }
+}
+
+/// The loops of a text.
+fn outlines(
+    place: Place,
+    text: &str,
+    (at, height, width): (DVec2, f64, Option<f64>),
+    point: impl Fn(&DVec2) -> Result<DVec2, OperationError>,
+) -> Result<Vec<Vec<NurbsCurve2>>, OperationError> {
+    limits::positive(place, "height", height)?;
+    let (loops, own_width) = lettering::text(text).map_err(|character| {
+        place.refused(format!(
+            "there is no outline for `{character}`, only for {}",
+            lettering::CHARACTERS.trim()
+        ))
+    })?;
+    if loops.is_empty() {
+        return Err(place.error(Problem::Nothing { what: "text" }));
+    }
+    let tall = height / lettering::HEIGHT;
+    let wide = match width {
+        Some(width) => limits::positive(place, "width", width)? / own_width,
+        None => tall,
+    };
+    let (at, scale) = (point(&at)?, DVec2::new(wide, tall));
+    loops.iter().map(|curves| checked(lettering::place(curves, |p| at + p * scale), &point)).collect()
 }
 
 /// `curves`, when all their control points pass `point`.
