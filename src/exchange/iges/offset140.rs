@@ -13,6 +13,9 @@ use crate::kernel::query::{Carrier, offset};
 /// Parts of the model's size that an approximated offset may be wrong by.
 const TOLERANCE: f64 = 1e-6;
 
+/// The same beyond which it is another surface and better left out.
+const WORST: f64 = 1e-2;
+
 /// The offset surface with the parameters of its base.
 pub(crate) fn read(
     reader: &mut Reader<'_, '_>,
@@ -37,6 +40,11 @@ pub(crate) fn read(
             let tolerance = TOLERANCE * s.bounds().diagonal().max(distance.abs());
             let (surface, error) = offset::offset(s, signed, tolerance)
                 .ok_or_else(|| EntityError::Degenerate("the base surface has no normal somewhere".into()))?;
+            if !(error <= WORST * s.bounds().diagonal().max(distance.abs())) {
+                let reason =
+                    format!("the offset folds or turns too sharply to be followed (off by {error:.2e} mm)");
+                return Err(EntityError::Degenerate(reason));
+            }
             reader.remark(
                 index,
                 if error <= tolerance { Severity::Note } else { Severity::Warning },

@@ -26,7 +26,7 @@ use crate::kernel::primitives::{lettering, outline};
 /// Panels at most in a scene asked for by name.
 const MOST_PANELS: usize = 1_000_000;
 
-/// The scene that is opened in place of a file: `demo`, or `demo:50000` for that many [`panels`]. `None`
+/// The scene that is opened in place of a file: `demo`, or `demo:50000` for that many [`panels()`]. `None`
 /// for every other name.
 pub fn named(name: &Path) -> Option<ModelRecord> {
     let count = name.to_str()?.strip_prefix("demo")?;
