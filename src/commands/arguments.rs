@@ -9,6 +9,7 @@ use std::str::FromStr;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::exchange::iges::unit::Unit;
+use crate::inspect::Length;
 use crate::kernel::view::StandardView;
 
 const EXAMPLES: &str = "\
@@ -17,6 +18,7 @@ Examples:
   hairline part.igs bracket.iges        open the editor on two files
   hairline render part.igs -o part.png --view top --samples 16
   hairline info part.igs --json | jq '.faces[0]'
+  hairline check part.igs --tolerance 10um --html gaps.html
   printf '1 0.5 0.5\\n' | hairline classify part.igs
   hairline edit part.igs --script edits.json -o part.hairline
   hairline convert part.igs part-in-inches.igs --unit in
@@ -27,7 +29,7 @@ quilt of N panels to measure with (demo:50000).
 
 Exit codes:
   0  done (a reader that closes the pipe early, `| head`, is no error)
-  1  the result could not be written or worked out
+  1  the result could not be written or worked out; `check`: a gap exceeds the tolerance
   2  wrong usage or bad input: unknown flag, missing or broken file, bad line
   3  the machine or the build lacks something: no display, no graphics driver, no editor";
 
@@ -68,6 +70,10 @@ pub enum Command {
     Convert(ConvertArguments),
     /// Apply a script of edits to a model or scene.
     Edit(EditArguments),
+    /// Look for gaps between faces; the exit code tells whether any exceeds the tolerance.
+    Check(CheckArguments),
+    /// Close the gaps that moving trim curves can close, and write the model.
+    Mend(MendArguments),
     /// Measure speed and print tables.
     Bench(BenchArguments),
 }
@@ -207,6 +213,75 @@ pub struct EditArguments {
     pub json: bool,
 }
 
+/// `hairline check`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "\
+Examples:
+  hairline check part.igs
+  hairline check part.igs --tolerance 1um --html part.html
+  hairline check *.igs --tolerance 0.01mm --json gaps.jsonl
+  hairline check part.igs --json - | jq '.findings[] | select(.exceeds)'
+
+Every part of every trim curve is paired with those that run beside it, whatever their parametrisation,
+direction and splits; gaps are distances between the exact curves in space, with a bound on the error.
+No triangles are made. One file gives a summary on standard output, several give one line of JSON each,
+in the order given. The JSON is described in docs/check-schema.md.
+
+A model fails when a gap exceeds the tolerance; naked edges (borders of one face only) are counted and
+listed, but fail a model only with --naked. Lengths take a unit: nm, um, mm, cm, m, in, mil; mm without.
+
+Exit codes:
+  0  nothing exceeds the tolerance
+  1  something does
+  2  a file could not be read or holds no faces, wrong usage, or a report could not be written")]
+pub struct CheckArguments {
+    /// Models to check; `demo` for the built-in one.
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
+    /// The largest gap that passes.
+    #[arg(long, value_name = "LENGTH", default_value = "10um")]
+    pub tolerance: Length,
+    /// Naked edges fail a model too.
+    #[arg(long)]
+    pub naked: bool,
+    /// Write the findings as JSON, one line for each file; `-` for standard output.
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Write one self-contained page with pictures of the worst gaps.
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Write the pictures as PNG files too; without a folder into MODEL-gaps.
+    #[arg(long, value_name = "FOLDER", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    pub pictures: Option<PathBuf>,
+}
+
+/// `hairline mend`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "\
+Examples:
+  hairline mend part.igs --tolerance 1um -o mended.igs
+  hairline check mended.igs --tolerance 1um
+
+One side's trim curve is fitted anew so that its image meets the other side's curve; surfaces stay as they
+are. Gaps between surfaces that do not meet stay open and are listed with the distance left; so do those
+whose closing would open another. The output is written whatever is left, as IGES or scene file by its name.
+
+Exit codes:
+  0  every gap is closed to the tolerance
+  1  some stay open, or the output could not be written
+  2  wrong usage or bad input")]
+pub struct MendArguments {
+    /// Model to mend, or `demo`.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// The largest gap that may stay.
+    #[arg(long, value_name = "LENGTH", default_value = "1um")]
+    pub tolerance: Length,
+    /// File to write.
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+}
+
 /// `hairline bench`.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = "\
@@ -242,6 +317,8 @@ pub enum Table {
     Misses,
     /// Saving and loading scene files of up to 50,000 faces: time and size.
     Scene,
+    /// Pairing trim curves and measuring gaps: time for a whole model and after an edit.
+    Gaps,
 }
 
 /// What the colours of a picture show.

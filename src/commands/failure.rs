@@ -48,6 +48,12 @@ pub enum Failure {
         /// What, and what to do about it.
         reason: String,
     },
+    /// The command did its work and what it found is told by this exit code alone.
+    #[error("exit code {code}")]
+    Found {
+        /// The exit code.
+        code: u8,
+    },
     /// The reader of standard output went away, as `head` does.
     #[error("standard output was closed")]
     Closed,
@@ -58,6 +64,7 @@ impl Failure {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Closed => 0,
+            Self::Found { code } => *code,
             Self::Output { .. } | Self::Work { .. } => 1,
             Self::Input { .. } | Self::Line { .. } | Self::Usage { .. } => 2,
             Self::Lacking { .. } => 3,

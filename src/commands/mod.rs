@@ -4,11 +4,13 @@
 
 pub mod arguments;
 pub mod bench;
+pub mod check;
 pub mod classify;
 pub mod convert;
 pub mod edit;
 pub mod failure;
 pub mod info;
+pub mod mend;
 pub mod output;
 pub mod progress;
 pub mod render;
@@ -36,7 +38,7 @@ pub fn run() -> ExitCode {
     match dispatch(&arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            if !matches!(failure, Failure::Closed) {
+            if !matches!(failure, Failure::Closed | Failure::Found { .. }) {
                 eprintln!("hairline: error: {failure}");
             }
             ExitCode::from(failure.exit_code())
@@ -52,6 +54,8 @@ fn dispatch(arguments: &Arguments) -> Result<(), Failure> {
         Some(Command::Classify(arguments)) => classify::run(arguments),
         Some(Command::Convert(arguments)) => convert::run(arguments),
         Some(Command::Edit(arguments)) => edit::run(arguments),
+        Some(Command::Check(arguments)) => check::run(arguments),
+        Some(Command::Mend(arguments)) => mend::run(arguments),
         Some(Command::Bench(arguments)) => bench::run(arguments),
     }
 }

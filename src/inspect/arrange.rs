@@ -86,6 +86,14 @@ impl Cluster<'_> {
         Scale::join(a, b).max(1.5 * overlap.distance)
     }
 
+    /// The largest of the snaps of the overlaps of curve `c` at `t`.
+    fn snap_beside(&self, c: usize, t: f64) -> f64 {
+        let at = |o: &&Overlap| {
+            (0..2).any(|k| o.curves[k] as usize == c && o.ranges[k].0 <= t && t <= o.ranges[k].1)
+        };
+        self.overlaps.iter().filter(at).map(|o| self.snap(o)).fold(0.0, f64::max)
+    }
+
     fn add_break(&self, breaks: &mut [Vec<f64>], curve: usize, t: f64, snap: f64) -> bool {
         let (lifted, breaks) = (self.curves[curve], &mut breaks[curve]);
         let at = breaks.partition_point(|b| *b < t);
@@ -199,21 +207,17 @@ impl Cluster<'_> {
             if range.len() < 2 {
                 continue;
             }
-            let limit = self
-                .overlaps
-                .iter()
-                .filter(|o| o.curves.contains(&(c as u32)))
-                .map(|o| 2.0 * self.snap(o))
-                .fold(0.0, f64::max);
             for e in range.clone() {
                 let curve = self.curves[c];
                 let (a, b) = elements[e].range;
                 let length = curve.length_to(b) - curve.length_to(a);
-                if !sets.is_alone(e) || length > limit || length > 0.1 * curve.length() {
+                if !sets.is_alone(e) || length > 0.1 * curve.length() {
                     continue;
                 }
                 let neighbours = [e.checked_sub(1), Some(e + 1)].into_iter().flatten();
-                let taker = neighbours.filter(|n| range.contains(n)).find(|n| !sets.is_alone(*n));
+                let taker = neighbours.filter(|n| range.contains(n)).find(|n| {
+                    !sets.is_alone(*n) && length <= 2.0 * self.snap_beside(c, middle(&elements[*n]))
+                });
                 if let Some(taker) = taker {
                     sets.unite(e, taker);
                 }
@@ -249,19 +253,30 @@ impl Cluster<'_> {
         edges.iter().map(|parts| self.edge(parts)).collect()
     }
 
-    /// `edge` with `more` appended, when each of its curves goes on in one of `more`.
+    /// `edge` with `more` appended, when each of its curves goes on in one of `more`, all at the same place.
     fn grown(&self, edge: &[Element], more: &[Element]) -> Option<Vec<Element>> {
         if edge.len() != more.len() {
             return None;
         }
-        let join = |(a, b): (&Element, &Element)| {
-            let touches = a.range.1 == b.range.0 || b.range.1 == a.range.0;
-            (a.curve == b.curve && touches).then(|| Element {
-                curve: a.curve,
-                range: (a.range.0.min(b.range.0), a.range.1.max(b.range.1)),
-            })
-        };
-        edge.iter().zip(more).map(join).collect()
+        let mut place = None;
+        let mut joined = Vec::with_capacity(edge.len());
+        for (a, b) in edge.iter().zip(more) {
+            let forward = a.range.1 == b.range.0;
+            if a.curve != b.curve || !(forward || b.range.1 == a.range.0) {
+                return None;
+            }
+            let curve = self.curves[a.curve];
+            let point = curve.at(if forward { b.range.0 } else { a.range.0 }).point;
+            let place = *place.get_or_insert(point);
+            let length = |e: &Element| curve.length_to(e.range.1) - curve.length_to(e.range.0);
+            // Circles that start in different places go on in each other at both.
+            if (point - place).length() > 0.3 * length(a).min(length(b)) {
+                return None;
+            }
+            let range = (a.range.0.min(b.range.0), a.range.1.max(b.range.1));
+            joined.push(Element { curve: a.curve, range });
+        }
+        Some(joined)
     }
 
     fn edge(&self, parts: &[Element]) -> Edge {

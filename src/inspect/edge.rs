@@ -32,6 +32,17 @@ pub enum EdgeKind {
     Degenerate,
 }
 
+/// The name of a kind, as users read it.
+pub fn edge_name(kind: EdgeKind) -> &'static str {
+    match kind {
+        EdgeKind::Shared => "shared",
+        EdgeKind::Naked => "naked",
+        EdgeKind::NonManifold => "non-manifold",
+        EdgeKind::Seam => "seam",
+        EdgeKind::Degenerate => "degenerate",
+    }
+}
+
 /// A stretch of a trim curve on an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct EdgeUse {

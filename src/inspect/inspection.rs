@@ -4,7 +4,7 @@
 //! pairwise overlaps. Curves that have to do with each other form clusters, and each cluster is worked out by
 //! itself, so that after a change only the clusters that the face's curves were in, or are in now, are touched.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use rayon::prelude::*;
 
@@ -161,10 +161,11 @@ impl Inspection {
         again.extend(touched.iter().copied().filter(|id| self.groups.of(*id).is_empty()));
         let before: Vec<u32> = again.iter().copied().collect();
         self.group(&before);
+        let mut entered: HashSet<u32> = HashSet::new();
         for id in &before {
-            for mate in self.groups.of(*id).to_vec() {
-                again.insert(mate);
-                touched.insert(mate);
+            if self.groups.number(*id).is_some_and(|group| entered.insert(group)) {
+                again.extend(self.groups.of(*id));
+                touched.extend(self.groups.of(*id));
             }
         }
         for id in &again {
@@ -244,6 +245,10 @@ impl Inspection {
             let group = self.groups.of(other);
             let leads = group.first() == Some(&other);
             let mine = group.len() > 1 || self.address(id) < self.address(other);
+            // Edges of the model that are complete are left to themselves.
+            let edge = self.at(other).and_then(|c| c.edge);
+            let leads =
+                leads && !(group.len() > 1 && edge.is_some() && curve.edge.is_some() && edge != curve.edge);
             if other != id && leads && (mine || !self.partners[other as usize].contains(&id)) {
                 near.push(other);
             }
@@ -284,18 +289,23 @@ impl Inspection {
 
     /// Works out the clusters that `ids` are in.
     fn settle(&mut self, ids: &[u32]) {
-        let mut seen = BTreeSet::new();
+        let mut seen = vec![false; self.curves.len()];
+        let mut entered: HashSet<u32> = HashSet::new();
         let mut clusters: Vec<Vec<u32>> = Vec::new();
         for id in ids.iter().copied().filter(|id| self.at(*id).is_some()) {
-            if !seen.insert(id) {
+            if seen[id as usize] {
                 continue;
             }
+            seen[id as usize] = true;
             let mut cluster = vec![id];
             let mut next = 0;
             while let Some(at) = cluster.get(next).copied() {
                 next += 1;
-                let mates = self.groups.of(at).iter().chain(&self.partners[at as usize]);
-                cluster.extend(mates.filter(|m| seen.insert(**m)));
+                // A group is entered as a whole, by whoever is met first.
+                let new = self.groups.number(at).is_some_and(|group| entered.insert(group));
+                let group = if new { self.groups.of(at) } else { &[] };
+                let mates = group.iter().chain(&self.partners[at as usize]);
+                cluster.extend(mates.filter(|m| !std::mem::replace(&mut seen[**m as usize], true)));
             }
             cluster.sort_by_key(|id| self.address(*id));
             clusters.push(cluster);

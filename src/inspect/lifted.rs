@@ -16,6 +16,11 @@ use crate::kernel::view::Bounds;
 
 /// Points of the table at most.
 const MOST_NODES: usize = 513;
+/// A stretch of the table is halved while Simpson's rule changes by more than this part in doing so; what is
+/// left is a fifteenth of it.
+const ROUGH: f64 = 1e-6;
+/// Halvings at most.
+const DEPTH: u32 = 6;
 
 /// A point of a lifted curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -194,7 +199,7 @@ impl LiftedCurve {
 
     fn table(&self) -> Vec<Node> {
         let surface = self.ground.surface();
-        let room = (MOST_NODES / 2 / self.pieces.len()).max(1);
+        let room = (MOST_NODES / 4 / self.pieces.len()).max(1);
         let mut nodes: Vec<Node> = Vec::new();
         let node = |t: f64| {
             let p = self.at(t);
@@ -204,26 +209,45 @@ impl LiftedCurve {
             let (low, high) = curve.hull();
             let crossed = knots_between(surface.knots_u(), low.x, high.x)
                 + knots_between(surface.knots_v(), low.y, high.y);
-            let (pu, pv) = surface.degrees();
-            let bends = curve.degree().clamp(2, 4) + pu.max(pv).min(3);
-            let count = (bends.div_ceil(2) * (1 + crossed)).clamp(1, room);
+            let count = (1 + crossed).clamp(1, room);
             if nodes.is_empty() {
                 nodes.push(node(*a));
             }
             for k in 0..count {
-                let at = |s: f64| a + (b - a) * ((k as f64 + s) / count as f64).min(1.0);
-                let (mut middle, mut end) = (node(at(0.5)), node(at(1.0)));
+                let at = |k: usize| if k == count { *b } else { a + (b - a) * k as f64 / count as f64 };
                 let start = nodes[nodes.len() - 1];
-                // Simpson's rule for the whole, and for the first half of the same parabola.
-                let h = 0.5 * (end.t - start.t);
-                let first = h / 12.0 * (5.0 * start.speed + 8.0 * middle.speed - end.speed);
-                let both = h / 3.0 * (start.speed + 4.0 * middle.speed + end.speed);
-                middle.length = start.length + first.clamp(0.0, both);
-                end.length = start.length + both;
-                nodes.extend([middle, end]);
+                self.fill(&mut nodes, start, node(0.5 * (at(k) + at(k + 1))), node(at(k + 1)), DEPTH);
             }
         }
         nodes
+    }
+
+    /// Appends the nodes after `start` up to `end`, at least four, `middle` among them: as many as arc length by
+    /// Simpson's rule asks for.
+    fn fill(&self, nodes: &mut Vec<Node>, start: Node, middle: Node, end: Node, depth: u32) {
+        let node = |t: f64| {
+            let p = self.at(t);
+            Node { t, point: p.point, speed: p.tangent.length(), length: 0.0 }
+        };
+        let simpson = |a: &Node, m: &Node, b: &Node| (b.t - a.t) / 6.0 * (a.speed + 4.0 * m.speed + b.speed);
+        let (left, right) = (node(0.5 * (start.t + middle.t)), node(0.5 * (middle.t + end.t)));
+        let halves = [simpson(&start, &left, &middle), simpson(&middle, &right, &end)];
+        let whole = simpson(&start, &middle, &end);
+        let sum = halves[0] + halves[1];
+        if depth > 0 && nodes.len() < MOST_NODES && (sum - whole).abs() > ROUGH * sum {
+            self.fill(nodes, start, left, middle, depth - 1);
+            let reached = nodes[nodes.len() - 1];
+            return self.fill(nodes, reached, right, end, depth - 1);
+        }
+        let mut length = start.length;
+        for (a, m, b) in [(start, left, middle), (middle, right, end)] {
+            // The first half of the same parabola.
+            let first = (b.t - a.t) / 24.0 * (5.0 * a.speed + 8.0 * m.speed - b.speed);
+            let both = simpson(&a, &m, &b);
+            nodes.push(Node { length: length + first.clamp(0.0, both), ..m });
+            length += both;
+            nodes.push(Node { length, ..b });
+        }
     }
 
     /// The box of the nodes, grown by twice what the curve bends away between three of them.

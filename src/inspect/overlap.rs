@@ -13,6 +13,8 @@ use super::scale::{SLENDER, Scale};
 const PARALLEL: f64 = 0.9;
 /// Cosine between the directions into two faces, above which they are two skins and not neighbours.
 const SKINS: f64 = 0.9;
+/// The same where nothing is between them: sharp edges, as of a wing, are edges still.
+const ONE_SKIN: f64 = 0.9998;
 /// Where stretches are looked at, the middle first.
 const LOOKS: [f64; 5] = [0.5, 0.15, 0.85, 0.35, 0.65];
 
@@ -80,7 +82,8 @@ fn stretch(
         distance = distance.max(foot.distance);
         if middle.is_none() {
             middle = Some((foot, cosine));
-            if foot.distance > join && lie_on_each_other(a, t, b, foot.at.t) {
+            let limit = if foot.distance > join { SKINS } else { ONE_SKIN };
+            if cosine_between(a, t, b, foot.at.t).is_some_and(|c| c > limit) {
                 return None;
             }
         }
@@ -110,9 +113,7 @@ fn image(
     (low < high).then_some((low, high))
 }
 
-fn lie_on_each_other(a: &LiftedCurve, t: f64, b: &LiftedCurve, s: f64) -> bool {
-    match (a.inward(t), b.inward(s)) {
-        (Some(x), Some(y)) => x.dot(y) > SKINS,
-        _ => false,
-    }
+/// Cosine of the angle between the two faces.
+fn cosine_between(a: &LiftedCurve, t: f64, b: &LiftedCurve, s: f64) -> Option<f64> {
+    Some(a.inward(t)?.dot(b.inward(s)?))
 }

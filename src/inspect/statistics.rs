@@ -67,15 +67,26 @@ impl Statistics {
         self.gaps.len() - self.gaps.partition_point(|g| *g <= limit)
     }
 
-    /// Numbers of gaps in `[10^k, 10^(k + 1))` model units for each k of `decades`; what is smaller or larger is
-    /// counted in the first or last.
-    pub fn histogram(&self, decades: std::ops::Range<i32>) -> Vec<usize> {
-        let mut counts = vec![0; decades.len().max(1)];
-        for gap in &self.gaps {
-            let decade = if *gap > 0.0 { gap.log10().floor() } else { f64::NEG_INFINITY };
-            let last = counts.len() - 1;
-            counts[(decade - f64::from(decades.start)).clamp(0.0, last as f64) as usize] += 1;
-        }
-        counts
+    /// Numbers of gaps below the first of `limits` (rising, model units), between each two, and from the last on.
+    pub fn histogram(&self, limits: &[f64]) -> Vec<usize> {
+        let below: Vec<usize> = limits.iter().map(|l| self.gaps.partition_point(|g| g < l)).collect();
+        let first = std::iter::once(0).chain(below.iter().copied());
+        let next = below.iter().copied().chain(std::iter::once(self.gaps.len()));
+        first.zip(next).map(|(a, b)| b - a).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_gap_is_in_one_bin_and_quantiles_are_gaps() {
+        let gaps = vec![0.0, 1e-7, 1e-6, 5e-6, 2e-3, 1.0];
+        let statistics = Statistics { gaps, ..Statistics::default() };
+        assert_eq!(statistics.histogram(&[1e-6, 1e-3, 1.0]), [2, 2, 1, 1]);
+        assert_eq!((statistics.quantile(0.0), statistics.quantile(1.0)), (0.0, 1.0));
+        assert_eq!(statistics.above(1e-6), 3);
+        assert_eq!(Statistics::default().quantile(0.5), 0.0);
     }
 }

@@ -5,6 +5,7 @@ mod bounds;
 mod closest;
 mod editing;
 mod edits;
+mod gaps;
 mod loops;
 mod operations;
 mod parity;

@@ -2,6 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on shall fail")]
 
 mod areas;
+mod check;
 mod cli;
 mod convert;
 mod edit_script;

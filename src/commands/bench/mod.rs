@@ -5,6 +5,7 @@
 pub mod build;
 pub mod classify;
 pub mod edit;
+pub mod gaps;
 pub mod misses;
 pub mod raycast;
 pub mod rivals;
@@ -47,6 +48,7 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
         Table::Raycast => raycast::run(&models, &mut out).map_err(unwritable),
         Table::Misses => misses::run(&models, &mut out).map_err(unwritable),
         Table::Scene => scene::run(&mut out).map_err(unwritable),
+        Table::Gaps => gaps::run(&models, &mut out).map_err(unwritable),
     })
 }
 

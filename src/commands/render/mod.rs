@@ -99,6 +99,14 @@ fn draw_on_gpu(_scene: &mut PackedScene, _options: &RenderOptions) -> Result<Ima
 
 fn write_png(image: &Image, path: &Path) -> Result<(), Failure> {
     let fail = |e: png::EncodingError| Failure::Output { path: path.into(), reason: e.to_string() };
+    output::write_whole(path, &png_of(image).map_err(fail)?)
+}
+
+/// `image` as a PNG file.
+///
+/// # Errors
+/// As the encoder: an image without pixels.
+pub fn png_of(image: &Image) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width, image.height);
     // Most pictures have a background; without alpha their files are smaller.
@@ -114,8 +122,8 @@ fn write_png(image: &Image, path: &Path) -> Result<(), Failure> {
     };
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    let mut writer = encoder.write_header().map_err(fail)?;
-    writer.write_image_data(pixels).map_err(fail)?;
-    writer.finish().map_err(fail)?;
-    output::write_whole(path, &bytes)
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels)?;
+    writer.finish()?;
+    Ok(bytes)
 }
