@@ -35,10 +35,13 @@ pub struct Figures {
 /// What an edit cost from the request to the upload, and what was uploaded.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct EditCost {
-    /// Time on the processor: working out the edit, changing components, deriving, packing, uploading.
+    /// Time on the processor of the last edit that was uploaded: working it out, changing components, deriving,
+    /// packing, uploading.
     pub time: Duration,
-    /// Bytes uploaded.
+    /// Bytes uploaded for it.
     pub bytes: u64,
+    /// Time so far of the one under way.
+    spent: Duration,
     /// Edits so far.
     pub edits: u64,
     /// Whether something of it is still to be done.
@@ -49,23 +52,23 @@ impl EditCost {
     /// Starts the account of an edit that took `time` so far. One whose results were never drawn goes on.
     pub fn begin(&mut self, time: Duration) {
         if !self.under_way {
-            *self = Self { edits: self.edits, under_way: true, ..Self::default() };
+            (self.under_way, self.spent) = (true, Duration::ZERO);
         }
         self.edits += 1;
-        self.time += time;
+        self.spent += time;
     }
 
     /// Adds work that was done for the edit, if there is one.
     pub fn add(&mut self, time: Duration) {
         if self.under_way {
-            self.time += time;
+            self.spent += time;
         }
     }
 
     /// Adds the upload, which is the end of it.
     pub fn finish(&mut self, time: Duration, bytes: u64) {
         if self.under_way {
-            *self = Self { time: self.time + time, bytes, under_way: false, ..*self };
+            *self = Self { time: self.spent + time, bytes, under_way: false, ..*self };
         }
     }
 }

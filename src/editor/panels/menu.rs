@@ -25,7 +25,7 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes) {
                 });
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let star = if reads.editing.is_unsaved() { "● " } else { "" };
+                let star = if reads.editing.is_unsaved() { "*" } else { "" };
                 let name = if reads.scene.is_empty() { String::new() } else { reads.document_name() };
                 ui.label(RichText::new(format!("{star}{name}")).color(reads.palette.weak));
             });

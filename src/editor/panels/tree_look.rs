@@ -35,7 +35,7 @@ pub(super) fn look(row: Row, faces: &[Entity], reads: &Reads, owned: &Owned) -> 
             Some(Look {
                 depth: 0.0,
                 text: {
-                    let star = if reads.editing.is_unsaved() { "● " } else { "" };
+                    let star = if reads.editing.is_unsaved() { "*" } else { "" };
                     format!("{star}{}", reads.models.get(entry.entity).ok()?.name)
                 },
                 detail: plural(faces.len(), "face"),
