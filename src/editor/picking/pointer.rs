@@ -3,9 +3,11 @@
 use bevy::prelude::*;
 use bevy::window::PrimaryWindow;
 use bevy_egui::{EguiContexts, egui};
+use egui_file_dialog::DialogState;
 
 use super::Picker;
 use crate::editor::uv::UvPanel;
+use crate::editor::files::FileDialogs;
 use crate::editor::viewport::{Pointer, Viewport};
 
 /// Decides anew while no button is down; a drag stays where it began.
@@ -14,6 +16,7 @@ pub(super) fn route(
     buttons: Res<ButtonInput<MouseButton>>,
     viewport: Res<Viewport>,
     uv: Res<UvPanel>,
+    dialogs: Res<FileDialogs>,
     mut contexts: EguiContexts,
     mut pointer: ResMut<Pointer>,
     mut picker: ResMut<Picker>,
@@ -23,7 +26,8 @@ pub(super) fn route(
     now.position = window.cursor_position();
     let ctx = contexts.ctx_mut().ok();
     now.keyboard_taken = ctx.as_ref().is_some_and(|ctx| ctx.text_edit_focused());
-    now.sheet_open = ctx.as_ref().is_some_and(|ctx| ctx.memory(|m| m.top_modal_layer().is_some()));
+    now.sheet_open = ctx.as_ref().is_some_and(|ctx| ctx.memory(|m| m.top_modal_layer().is_some()))
+        || *dialogs.dialog.state() == DialogState::Open;
     let held_before = buttons.get_pressed().any(|b| !buttons.just_pressed(*b));
     if !held_before {
         let free = |position: Vec2| {
