@@ -14,5 +14,6 @@ pub mod exchange;
 pub mod gpu;
 pub mod inspect;
 pub mod kernel;
+pub mod meshing;
 pub mod reference;
 pub mod scene;

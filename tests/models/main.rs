@@ -13,4 +13,5 @@ mod import;
 mod mutations;
 mod points;
 mod saving;
+mod tessellation;
 mod truth;

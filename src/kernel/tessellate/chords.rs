@@ -66,6 +66,29 @@ pub fn divide(run: &Run, limits: &ChordLimits, options: &TessellationOptions) ->
     places.into_iter().map(sample).collect()
 }
 
+/// The same for the part of a run between two parameters, `s` of the whole run.
+pub fn divide_part(
+    run: &Run,
+    (from, to): (f64, f64),
+    limits: &ChordLimits,
+    options: &TessellationOptions,
+) -> Vec<EdgeSample> {
+    if from == 0.0 && to == run.range() {
+        return divide(run, limits, options);
+    }
+    let (part, places) = run.part(from, to);
+    let whole = |s: f64| {
+        let k = (s as usize).min(places.len() - 2);
+        places[k] + (places[k + 1] - places[k]) * (s - k as f64)
+    };
+    let mut samples = divide(&part, limits, options);
+    let last = samples.len() - 1;
+    for (k, sample) in samples.iter_mut().enumerate() {
+        sample.s = if k == last { to } else { whole(sample.s) };
+    }
+    samples
+}
+
 fn even(run: &Run, limits: &ChordLimits) -> Vec<f64> {
     let mut places = vec![0.0];
     let mut first = 0;

@@ -3,11 +3,8 @@
 //! For a patch `A / w` and the linear map M through the triangle's corners, `N = A - w M` vanishes at the corners. With
 //! constant second derivatives `N = -1/2 sum_ij l_i l_j N''[e_ij, e_ij]` in barycentric coordinates l and edges e_ij; what
 //! the derivatives vary over the triangle's box adds an eighth of it per squared extent (Filip, Magedson & Markot 1986).
-//! Ranges of derivatives are boxes around differences of control points of patch parts, halved where that tightens the
-//! bound. Lines between patches that are not smooth add the jump of the derivative. So the bound holds for
+//! Ranges of derivatives are boxes around differences of control points of parts of patches. Lines between patches that are not smooth add the jump of the derivative. So the bound holds for
 //! rational surfaces and tends to the true distance as triangles shrink.
-
-use std::cell::RefCell;
 
 use glam::{DVec2, DVec3, DVec4};
 
@@ -21,6 +18,8 @@ pub struct TriangleError {
     pub error: f64,
     /// Shares of the error that edge k (from corner k to the next) brings in.
     pub edges: [f64; 3],
+    /// The edge, and where on it (0 to 1), that crosses a crease which matters.
+    pub crease: Option<(usize, f64)>,
 }
 
 /// Range of a derivative: a ball for the point part, an interval for the weight.
@@ -59,12 +58,12 @@ struct Part {
     weight_u: (f64, f64),
     weight_v: (f64, f64),
     least_weight: f64,
-    children: Option<[u32; 4]>,
-    patch: BezierPatch,
+    /// Bounds of the lengths of the first derivatives.
+    slopes: DVec2,
 }
 
 impl Part {
-    fn new(patch: BezierPatch) -> Self {
+    fn new(patch: &BezierPatch) -> Self {
         let (m, n) = (patch.degree_u, patch.degree_v);
         let origin = patch.bounds().centre();
         let net: Vec<DVec4> =
@@ -94,7 +93,67 @@ impl Part {
             interval(&mut grid(m + 1, n).map(|(i, j)| (at(i, j + 1).w - at(i, j).w) * nf / size.y));
         let least_weight = patch.weights.iter().copied().fold(f64::INFINITY, f64::min);
         let (min, max) = (patch.uv_min, patch.uv_max);
-        Self { min, max, origin, uu, uv, vv, weight_u, weight_v, least_weight, children: None, patch }
+        // |S'| <= (|A'| + |w'| |S|) / w, all from the part's middle.
+        let reach = patch.points.iter().map(|p| p.distance(origin)).fold(0.0, f64::max);
+        let slope = |d: &mut dyn Iterator<Item = DVec4>| {
+            d.map(|h| h.truncate().length() + h.w.abs() * reach).fold(0.0, f64::max) / least_weight
+        };
+        let slopes = DVec2::new(
+            slope(&mut grid(m, n + 1).map(|(i, j)| (at(i + 1, j) - at(i, j)) * (mf / size.x))),
+            slope(&mut grid(m + 1, n).map(|(i, j)| (at(i, j + 1) - at(i, j)) * (nf / size.y))),
+        );
+        Self { min, max, origin, uu, uv, vv, weight_u, weight_v, least_weight, slopes }
+    }
+}
+
+/// A patch cut into equal parts.
+struct Parts {
+    min: DVec2,
+    max: DVec2,
+    counts: [usize; 2],
+    /// Part `(i, j)` is number `i * counts[1] + j`.
+    parts: Vec<Part>,
+}
+
+impl Parts {
+    fn new(patch: &BezierPatch, finest: usize) -> Self {
+        // Second derivatives of polynomials of low degree do not vary.
+        let count = |degree: usize, other: usize| match degree {
+            _ if patch.is_rational() => {
+                if degree > 1 || other > 1 {
+                    finest
+                } else {
+                    1
+                }
+            }
+            0..=1 if other <= 2 => 1,
+            2 if other <= 1 => 1,
+            _ => finest,
+        };
+        let counts = [count(patch.degree_u, patch.degree_v), count(patch.degree_v, patch.degree_u)];
+        let at = |i: usize, j: usize| DVec2::new(i as f64 / counts[0] as f64, j as f64 / counts[1] as f64);
+        let mut parts = Vec::with_capacity(counts[0] * counts[1]);
+        for i in 0..counts[0] {
+            for j in 0..counts[1] {
+                parts.push(Part::new(&patch.restrict(at(i, j), at(i + 1, j + 1))));
+            }
+        }
+        Self { min: patch.uv_min, max: patch.uv_max, counts, parts }
+    }
+
+    /// The parts that a box touches. Touching at a border does not count, unless the box has no width there.
+    fn within(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = &Part> {
+        let range = |k: usize| {
+            let step = (self.max[k] - self.min[k]) / self.counts[k] as f64;
+            let from = (low[k] - self.min[k]) / step;
+            let to = (high[k] - self.min[k]) / step;
+            let slack = if to - from > 1e-9 { 1e-12 } else { -1e-12 };
+            let first = (from + slack).floor().max(0.0) as usize;
+            let end = ((to - slack).ceil().max(0.0) as usize).max(first + 1).min(self.counts[k]);
+            first.min(self.counts[k])..end
+        };
+        let (rows, columns) = (range(0), range(1));
+        rows.flat_map(move |i| columns.clone().map(move |j| &self.parts[i * self.counts[1] + j]))
     }
 }
 
@@ -112,25 +171,29 @@ struct Crease {
 
 /// Bounds for the triangles of one face.
 pub struct Flatness {
-    parts: RefCell<Vec<Part>>,
-    roots: usize,
+    patches: Vec<Parts>,
     creases: Vec<Crease>,
+    domain: (DVec2, DVec2),
     rational: bool,
-    /// What ranges may add to an error before they are refined.
-    precision: f64,
 }
 
-/// Halvings of a patch at most.
-const MOST_PARTS: usize = 200_000;
+/// Parts along a direction of a patch in which second derivatives vary, at most.
+const FINEST: usize = 8;
+/// Parts of all patches of a face, about.
+const MOST_PARTS: usize = 1024;
 /// Jumps below this part of the derivative are rounding.
 const SMOOTH: f64 = 1e-9;
 
 impl Flatness {
-    /// Prepares bounds over `ground` whose slack is about `precision`.
-    pub fn new(ground: &Ground, precision: f64) -> Self {
-        let parts: Vec<Part> = ground.patches().iter().map(|p| Part::new(p.clone())).collect();
-        let rational = ground.patches().iter().any(BezierPatch::is_rational);
-        Self { roots: parts.len(), parts: RefCell::new(parts), creases: creases(ground), rational, precision }
+    /// Prepares bounds over `ground`.
+    pub fn new(ground: &Ground) -> Self {
+        let all = ground.patches();
+        let finest = ((MOST_PARTS / all.len().max(1)) as f64).sqrt() as usize;
+        let patches: Vec<Parts> = all.iter().map(|p| Parts::new(p, finest.clamp(1, FINEST))).collect();
+        let rational = all.iter().any(BezierPatch::is_rational);
+        let around = |(low, high): (DVec2, DVec2), p: &Parts| (low.min(p.min), high.max(p.max));
+        let domain = patches.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around);
+        Self { patches, creases: creases(ground), domain, rational }
     }
 
     /// Bound for the triangle of native `uv` whose corners lie at `p` on the surface.
@@ -146,8 +209,14 @@ impl Flatness {
         let up = largest(signed.map(|x| x.max(0.0)));
         let down = largest(signed.map(|x| (-x).max(0.0)));
         let error = 0.5 * up.max(down).hypot(largest(across)) + ranges.slack;
-        let error = finish(error, &ranges);
-        TriangleError { error, edges: ranges.curved.map(|d| d.length() / (8.0 * ranges.least_weight)) }
+        let extent = box_.1 - box_.0;
+        let error = finish(error, &ranges).min(ranges.slopes.dot(extent));
+        let crease = if ranges.kink * 4.0 > error * ranges.least_weight { self.cut(&uv, box_) } else { None };
+        TriangleError {
+            error,
+            edges: ranges.curved.map(|d| d.length() / (8.0 * ranges.least_weight)),
+            crease,
+        }
     }
 
     /// Bound of the distance between the chord from `a` to `b` and the image of the straight line between their
@@ -160,7 +229,30 @@ impl Flatness {
         let ranges = self.over(box_, middle, 0.5 * along.length(), &edges);
         let direction = along.normalize_or_zero();
         let bent = ranges.curved[0] - direction * ranges.curved[0].dot(direction);
-        finish(bent.length() / 8.0 + ranges.slack, &ranges)
+        finish(bent.length() / 8.0 + ranges.slack, &ranges).min(ranges.slopes.dot(box_.1 - box_.0))
+    }
+
+    /// The edge of a triangle that is crossed most in the middle by a crease of the surface, and where.
+    fn cut(&self, uv: &[DVec2; 3], (low, high): (DVec2, DVec2)) -> Option<(usize, f64)> {
+        let mut best: Option<(f64, (usize, f64))> = None;
+        for crease in self.creases.iter().filter(|c| c.jump > 0.0) {
+            let (axis, other) = (crease.axis, 1 - crease.axis);
+            if !(crease.at > low[axis] && crease.at < high[axis]) {
+                continue;
+            }
+            if !(crease.from < high[other] && crease.to > low[other]) {
+                continue;
+            }
+            for k in 0..3 {
+                let (a, b) = (uv[k], uv[(k + 1) % 3]);
+                let t = (crease.at - a[axis]) / (b[axis] - a[axis]);
+                let reach = t.min(1.0 - t) * (b[axis] - a[axis]).abs();
+                if reach > 0.0 && best.is_none_or(|b| reach > b.0) {
+                    best = Some((reach, (k, t)));
+                }
+            }
+        }
+        best.map(|b| b.1)
     }
 
     /// Second derivatives of N along up to three edges over a box, with all that may add to them.
@@ -171,47 +263,33 @@ impl Flatness {
         spread: f64,
         edges: &[(DVec2, DVec3)],
     ) -> Ranges {
+        // Rounding may put vertices a hair outside of all patches.
+        let (low, high) = (low.clamp(self.domain.0, self.domain.1), high.clamp(self.domain.0, self.domain.1));
         let extent = high - low;
-        let mut parts = self.parts.borrow_mut();
         let mut result = Ranges { least_weight: f64::INFINITY, ..Ranges::default() };
         let longest = edges.iter().map(|e| e.1.length()).fold(0.0, f64::max);
         let mut hull = [(DVec3::INFINITY, DVec3::NEG_INFINITY); 3];
         let mut found: Vec<([DVec3; 3], f64)> = Vec::new();
-        let mut open: Vec<u32> = (0..self.roots as u32).collect();
-        while let Some(number) = open.pop() {
-            let part = &parts[number as usize];
-            // Touching at a border does not count, unless the box has no width there.
+        for patch in &self.patches {
             let apart = |k: usize| {
-                let slack = 1e-12 * (part.max[k] - part.min[k]);
-                part.max[k] <= low[k] + slack && part.max[k] < high[k]
-                    || part.min[k] >= high[k] - slack && part.min[k] > low[k]
+                patch.max[k] <= low[k] && patch.max[k] < high[k]
+                    || patch.min[k] >= high[k] && patch.min[k] > low[k]
             };
-            if apart(0) || apart(1) {
+            if apart(0) || apart(1) || (patch.max.cmplt(low) | patch.min.cmpgt(high)).any() {
                 continue;
             }
-            let (curved, slack) = part.along(edges, extent, (middle, spread, longest), self.rational);
-            let inside = low.cmple(part.min).all() && part.max.cmple(high).all();
-            if !inside && slack / part.least_weight > self.precision {
-                let children = part.children;
-                let children = match children {
-                    Some(children) => Some(children),
-                    None if parts.len() + 4 <= MOST_PARTS => Some(divide(&mut parts, number as usize)),
-                    None => None,
-                };
-                if let Some(children) = children {
-                    open.extend(children);
-                    continue;
+            for part in patch.within(low, high) {
+                let (curved, slack) = part.along(edges, extent, (middle, spread, longest), self.rational);
+                result.least_weight = result.least_weight.min(part.least_weight);
+                result.slopes = result.slopes.max(part.slopes);
+                for (hull, d) in hull.iter_mut().zip(curved) {
+                    *hull = (hull.0.min(d), hull.1.max(d));
                 }
+                found.push((curved, slack));
             }
-            let part = &parts[number as usize];
-            result.least_weight = result.least_weight.min(part.least_weight);
-            for (hull, d) in hull.iter_mut().zip(curved) {
-                *hull = (hull.0.min(d), hull.1.max(d));
-            }
-            found.push((curved, slack));
         }
         if found.is_empty() {
-            return Ranges { least_weight: 1.0, slack: f64::INFINITY, ..result };
+            return Ranges { least_weight: 1.0, slack: f64::INFINITY, slopes: DVec2::INFINITY, ..result };
         }
         result.curved = hull.map(|(a, b)| 0.5 * (a + b));
         for (curved, slack) in &found {
@@ -224,7 +302,9 @@ impl Flatness {
             let (below, above) = (x - low[crease.axis], high[crease.axis] - x);
             if below > 0.0 && above > 0.0 && crease.from < high[other] && crease.to > low[other] {
                 let reach = below * above / (below + above);
-                result.slack += crease.jump * reach * result.least_weight;
+                let kink = crease.jump * reach * result.least_weight;
+                result.slack += kink;
+                result.kink += kink;
                 result.feedback += crease.weight_jump * reach;
             }
         }
@@ -240,6 +320,9 @@ struct Ranges {
     least_weight: f64,
     /// Part of the error itself that weights' jumps add.
     feedback: f64,
+    /// The part of `slack` that creases add.
+    kink: f64,
+    slopes: DVec2,
 }
 
 fn finish(error: f64, ranges: &Ranges) -> f64 {
@@ -292,26 +375,6 @@ impl Part {
         }
         (curved, slack)
     }
-}
-
-fn divide(parts: &mut Vec<Part>, number: usize) -> [u32; 4] {
-    let (min, max) = (parts[number].min, parts[number].max);
-    let middle = 0.5 * (min + max);
-    let first = parts.len() as u32;
-    let quarters = parts[number].patch.quarters();
-    let corners = [
-        (min, middle),
-        (DVec2::new(min.x, middle.y), DVec2::new(middle.x, max.y)),
-        (DVec2::new(middle.x, min.y), DVec2::new(max.x, middle.y)),
-        (middle, max),
-    ];
-    for (mut quarter, (low, high)) in quarters.into_iter().zip(corners) {
-        (quarter.uv_min, quarter.uv_max) = (low, high);
-        parts.push(Part::new(quarter));
-    }
-    let children = [first, first + 1, first + 2, first + 3];
-    parts[number].children = Some(children);
-    children
 }
 
 /// The lines between patches across which the surface or its weight is not smooth.

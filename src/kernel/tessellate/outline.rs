@@ -103,9 +103,71 @@ impl Run {
         end_or(&piece.space, t)
     }
 
+    /// Parameter of a point of the run near `p`, found from `guess` within `from..to` going downhill.
+    pub fn project(&self, p: DVec3, guess: f64, (from, to): (f64, f64)) -> f64 {
+        let mut s = guess.clamp(from, to);
+        let mut best = self.point(s).distance_squared(p);
+        for _ in 0..12 {
+            let (piece, t) = self.at(s);
+            let (here, d) = piece.space.tangent(t);
+            let squared = d.length_squared();
+            let mut step = if squared > 0.0 { (p - here).dot(d) / squared } else { 0.0 };
+            let mut moved = false;
+            for _ in 0..6 {
+                // Across a joint the speed may be another: steps end there.
+                let floor = (s.ceil() - 1.0).max(from);
+                let ceiling = (s.floor() + 1.0).min(to);
+                let next = (s + step).clamp(floor, ceiling);
+                let off = self.point(next).distance_squared(p);
+                if next != s && off < best {
+                    moved = (next - s).abs() > 1e-14 * self.range();
+                    (s, best) = (next, off);
+                    break;
+                }
+                step *= 0.3;
+            }
+            if !moved {
+                break;
+            }
+        }
+        s
+    }
+
+    /// The same from the best of several starts over the whole range; with the distance.
+    pub fn nearest(&self, p: DVec3) -> (f64, f64) {
+        let count = 8 * self.pieces.len();
+        let at = |k: usize| self.range() * k as f64 / count as f64;
+        let off = |k: usize| self.point(at(k)).distance_squared(p);
+        let start = (0..=count).map(|k| (off(k), k)).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |b| b.1);
+        let s = self.project(p, at(start), (0.0, self.range()));
+        (s, self.point(s).distance(p))
+    }
+
     /// First and last point.
     pub fn ends(&self) -> [DVec3; 2] {
         [self.point(0.0), self.point(self.range())]
+    }
+}
+
+impl Run {
+    /// The part between two parameters as a run of its own, with the whole run's parameters of its joints.
+    pub fn part(&self, from: f64, to: f64) -> (Self, Vec<f64>) {
+        let (first, last) = (from as usize, (to.ceil() as usize).clamp(1, self.pieces.len()));
+        let mut places = vec![from];
+        let mut pieces = Vec::new();
+        for k in first..last {
+            let piece = &self.pieces[k];
+            let (low, high) = ((from - k as f64).max(0.0), (to - k as f64).min(1.0));
+            if !(high > low) {
+                continue;
+            }
+            places.push(k as f64 + high);
+            pieces.push(match (low, high) {
+                (0.0, 1.0) => piece.clone(),
+                _ => LiftedPiece { uv: piece.uv.restrict(low, high), space: piece.space.restrict(low, high) },
+            });
+        }
+        (Self { source: self.source, pieces }, places)
     }
 }
 

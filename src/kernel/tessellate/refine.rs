@@ -11,6 +11,7 @@ use glam::{DVec2, DVec3};
 use spade::handles::FixedVertexHandle;
 
 use super::flatness::Flatness;
+use super::line_error::distance_to_segment;
 use super::options::{TessellateError, TessellationOptions};
 use super::outline::Ground;
 use super::triangulate::{Chord, Region};
@@ -69,6 +70,8 @@ struct Task {
 #[derive(Clone, Copy, PartialEq)]
 enum Divide {
     Edge(usize),
+    /// On an edge, at this share of it.
+    At(usize, f64),
     Middle,
 }
 
@@ -93,7 +96,9 @@ impl Ord for Task {
 /// Edges that bring in less than this share of the allowed error are not divided for it.
 const STANDS_OUT: f64 = 0.55;
 /// A boundary chord that alone brings in this share of the allowed error is at fault itself.
-const AT_FAULT: f64 = 0.8;
+const AT_FAULT: f64 = 0.97;
+/// Vertices stay away from chords by this multiple of what the chord bends.
+const NEAR: f64 = 2.0;
 /// Edges shorter than this part of the face's parameters are not divided.
 const SHORTEST: f64 = 1e-7;
 
@@ -125,8 +130,15 @@ impl Refinement<'_> {
             let uv = numbers.map(|n| vertices.uvs[n as usize]);
             let at = match task.divide {
                 Divide::Edge(k) if !bounds[k] => 0.5 * (uv[k] + uv[(k + 1) % 3]),
+                Divide::At(k, t) if !bounds[k] => uv[k].lerp(uv[(k + 1) % 3], t),
                 _ => (uv[0] + uv[1] + uv[2]) / 3.0,
             };
+            if let Some(k) = self.too_near_a_chord(vertices, &numbers, &bounds, at) {
+                refined.stubborn.insert([numbers[k], numbers[(k + 1) % 3]]);
+                refined.over += 1;
+                refined.error = refined.error.max(task.error);
+                continue;
+            }
             let mut done = self.put(region, vertices, at, task.corners[0]);
             if done.is_none() && task.divide != Divide::Middle {
                 done = self.put(region, vertices, (uv[0] + uv[1] + uv[2]) / 3.0, task.corners[0]);
@@ -147,6 +159,28 @@ impl Refinement<'_> {
             }
         }
         Ok(refined)
+    }
+
+    /// The boundary chord of a triangle that a new vertex would lie so near to, for how much it bends, that the
+    /// triangle between them could fold over.
+    fn too_near_a_chord(
+        &self,
+        vertices: &Vertices,
+        numbers: &[u32; 3],
+        bounds: &[bool; 3],
+        at: DVec2,
+    ) -> Option<usize> {
+        if self.planar {
+            return None;
+        }
+        let p = self.ground.point(at);
+        (0..3).filter(|k| bounds[*k]).find(|k| {
+            let [a, b] = [numbers[*k], numbers[(k + 1) % 3]].map(|n| n as usize);
+            let middle = self.ground.point(0.5 * (vertices.uvs[a] + vertices.uvs[b]));
+            let (from, to) = (vertices.positions[a], vertices.positions[b]);
+            let sagitta = distance_to_segment(middle, from, to);
+            distance_to_segment(p, from, to) < NEAR * sagitta
+        })
     }
 
     fn put(
@@ -186,10 +220,19 @@ impl Refinement<'_> {
         let gap = numbers.map(|n| p_gap(vertices, n)).into_iter().fold(0.0, f64::max);
         let tolerance = self.options.tolerance;
         let allowed = (tolerance - gap).max(0.5 * tolerance);
-        let (error, shares) = self.error(uv, p);
+        let (error, shares, crease) = self.error(uv, p);
         let mut excess = error / allowed;
         let Some(bounds) = region.standing(corners) else { return };
-        let mut divide = self.weakest(&bounds, shares, allowed, &numbers, refined, excess > 1.0);
+        let mut divide = self.weakest(&bounds, shares, allowed, (vertices, &numbers), refined, excess > 1.0);
+        if let Some((k, t)) = crease
+            && excess > 1.0
+        {
+            if !bounds[k] {
+                divide = Some(Divide::At(k, t));
+            } else {
+                refined.stubborn.insert([numbers[k], numbers[(k + 1) % 3]]);
+            }
+        }
         let lengths = [0, 1, 2].map(|k| p[k].distance(p[(k + 1) % 3]));
         if let Some(longest) = self.options.max_edge {
             let worst = free_longest(&lengths, &bounds);
@@ -231,19 +274,31 @@ impl Refinement<'_> {
         bounds: &[bool; 3],
         shares: [f64; 3],
         allowed: f64,
-        numbers: &[u32; 3],
+        (vertices, numbers): (&Vertices, &[u32; 3]),
         refined: &mut Refined,
         over: bool,
     ) -> Option<Divide> {
         let free = (0..3).filter(|k| !bounds[*k]);
         let best = free.max_by(|a, b| shares[*a].total_cmp(&shares[*b]));
         let bound_worst = (0..3).filter(|k| bounds[*k]).max_by(|a, b| shares[*a].total_cmp(&shares[*b]));
-        if let Some(k) = bound_worst
-            && over
-            && shares[k] > AT_FAULT * allowed
-        {
-            refined.stubborn.insert([numbers[k], numbers[(k + 1) % 3]]);
-            if best.is_none_or(|b| shares[b] < AT_FAULT * allowed) {
+        if over {
+            // As a triangle shrinks towards a chord its error tends to the chord's, which dividing does not change.
+            let mut stuck = false;
+            for k in (0..3).filter(|k| bounds[*k]) {
+                let n = [numbers[k], numbers[(k + 1) % 3]];
+                let off = match self.flatness {
+                    Some(flatness) => flatness.chord(
+                        n.map(|n| vertices.uvs[n as usize]),
+                        n.map(|n| vertices.on_surface[n as usize]),
+                    ),
+                    None => shares[k],
+                };
+                if off > AT_FAULT * allowed {
+                    refined.stubborn.insert(n);
+                    stuck = true;
+                }
+            }
+            if stuck && best.is_none_or(|b| shares[b] < AT_FAULT * allowed) {
                 return None;
             }
         }
@@ -256,14 +311,14 @@ impl Refinement<'_> {
         }
     }
 
-    /// Error of a triangle and the shares of its edges.
-    fn error(&self, uv: [DVec2; 3], p: [DVec3; 3]) -> (f64, [f64; 3]) {
+    /// Error of a triangle, the shares of its edges, and where a crease crosses one of them.
+    fn error(&self, uv: [DVec2; 3], p: [DVec3; 3]) -> (f64, [f64; 3], Option<(usize, f64)>) {
         if self.planar {
-            return (0.0, [0.0; 3]);
+            return (0.0, [0.0; 3], None);
         }
         if let Some(flatness) = self.flatness {
             let found = flatness.triangle(uv, p);
-            return (found.error, found.edges);
+            return (found.error, found.edges, found.crease);
         }
         let normal = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
         let off = |at: DVec2| {
@@ -276,7 +331,7 @@ impl Refinement<'_> {
             if normal == DVec3::ZERO { d.length() } else { d.dot(normal).abs() }
         });
         let middle = off((uv[0] + uv[1] + uv[2]) / 3.0);
-        (edges.into_iter().fold(middle, f64::max), edges)
+        (edges.into_iter().fold(middle, f64::max), edges, None)
     }
 }
 

@@ -7,11 +7,11 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 
-use super::chords::{ChordLimits, EdgeSample, divide};
+use super::chords::{ChordLimits, EdgeSample, divide, divide_part};
 use super::flatness::Flatness;
 use super::mesh::{FaceMesh, Quality};
 use super::options::{TessellateError, TessellationOptions};
-use super::outline::{Ground, Outline};
+use super::outline::{Ground, Outline, Run};
 use super::plane::Plane;
 use super::refine::{Refinement, Vertices};
 use super::simplify::simplify;
@@ -38,16 +38,17 @@ pub struct Tessellator<'a> {
     ground: Ground<'a>,
     outline: Outline,
     plane: Option<Plane>,
+    flatness: Option<Flatness>,
     options: TessellationOptions,
     tolerance: f64,
 }
 
 /// Share of the tolerance within which a face counts as plane.
 const FLAT: f64 = 1e-3;
-/// Share of the tolerance that bounds may be too wide by.
-const SLACK: f64 = 0.04;
 /// Chords keep to this share, because triangles beside them bend as much and more.
-const CHORD_SHARE: f64 = 0.95;
+const CHORD_SHARE: f64 = 0.88;
+/// Chords whose proven error is above this share are too long for triangles beside them.
+const CHORD_LIMIT: f64 = 0.96;
 /// Rounds in which chords are divided for the sake of the face.
 const ROUNDS: usize = 6;
 
@@ -70,7 +71,16 @@ impl<'a> Tessellator<'a> {
         }
         let outline = Outline::new(face, &ground, 1e-3 * options.tolerance);
         let plane = Plane::of(&ground, FLAT * options.tolerance);
-        Ok(Self { face, ground, outline, plane, options: options.clone(), tolerance: options.tolerance })
+        let flatness = (options.conservative && plane.is_none()).then(|| Flatness::new(&ground));
+        Ok(Self {
+            face,
+            ground,
+            outline,
+            plane,
+            flatness,
+            options: options.clone(),
+            tolerance: options.tolerance,
+        })
     }
 
     /// The face's outline in space.
@@ -80,10 +90,22 @@ impl<'a> Tessellator<'a> {
 
     /// Chords of every run by the face's own choice: a function of the run alone.
     pub fn own_boundary(&self) -> Boundary {
-        let mut limits = ChordLimits::new(&self.options);
-        limits.tolerance *= CHORD_SHARE;
         let runs = self.outline.chains.iter();
-        runs.map(|chain| chain.iter().map(|run| divide(run, &limits, &self.options)).collect()).collect()
+        runs.map(|chain| chain.iter().map(|run| self.divide(run, 1.0)).collect()).collect()
+    }
+
+    /// Chords of one run, for a part of the tolerance.
+    pub fn divide(&self, run: &Run, part: f64) -> Vec<EdgeSample> {
+        let mut limits = ChordLimits::new(&self.options);
+        limits.tolerance *= CHORD_SHARE * part;
+        divide(run, &limits, &self.options)
+    }
+
+    /// The same for the part of a run between two parameters.
+    pub fn divide_part(&self, run: &Run, range: (f64, f64), part: f64) -> Vec<EdgeSample> {
+        let mut limits = ChordLimits::new(&self.options);
+        limits.tolerance *= CHORD_SHARE * part;
+        divide_part(run, range, &limits, &self.options)
     }
 
     /// The mesh within `boundary`, and the chords of it that are too long for this face.
@@ -95,18 +117,17 @@ impl<'a> Tessellator<'a> {
         boundary: &Boundary,
         cancelled: &dyn Fn() -> bool,
     ) -> Result<(FaceMesh, Vec<LongChord>), TessellateError> {
-        let flatness = (self.options.conservative && self.plane.is_none())
-            .then(|| Flatness::new(&self.ground, SLACK * self.tolerance));
+        let flatness = self.flatness.as_ref();
         let scale = self.scale();
         let refinement = Refinement {
             ground: &self.ground,
-            flatness: flatness.as_ref(),
+            flatness,
             planar: self.plane.is_some(),
             options: &self.options,
             scale,
             domain: self.face.domain,
         };
-        let mut long = self.long_chords(boundary, flatness.as_ref());
+        let mut long = Vec::new();
         let mut vertices = Vertices::default();
         let mut quality = Quality::default();
         let mut loops: Vec<Vec<u32>> = Vec::new();
@@ -131,6 +152,7 @@ impl<'a> Tessellator<'a> {
             }
             loops.push(ring.into_iter().map(|r| r.0).collect());
         }
+        self.align(&mut vertices.uvs);
         let places: Vec<DVec2> = match &self.plane {
             Some(plane) => vertices.positions.iter().map(|p| plane.coordinates(*p)).collect(),
             None => vertices.uvs.iter().map(|uv| *uv * scale).collect(),
@@ -159,6 +181,11 @@ impl<'a> Tessellator<'a> {
         let reversed = self.plane.is_none() && scale.x * scale.y < 0.0;
         let triangles: Vec<[u32; 3]> =
             region.triangles().map(|[a, b, c]| if reversed { [a, c, b] } else { [a, b, c] }).collect();
+        if self.plane.is_none() {
+            for [a, b] in folded(&vertices, &triangles) {
+                long.extend(owners.get(&[a, b]).or_else(|| owners.get(&[b, a])));
+            }
+        }
         let mesh = finish(vertices, triangles, loops, quality);
         if mesh.triangles.len() > self.options.triangle_limit {
             return Err(TessellateError::TooManyTriangles { limit: self.options.triangle_limit });
@@ -169,21 +196,46 @@ impl<'a> Tessellator<'a> {
     }
 
     /// Chords whose straight line in parameters leaves the chord by more than the tolerance.
-    fn long_chords(&self, boundary: &Boundary, flatness: Option<&Flatness>) -> Vec<LongChord> {
-        let Some(flatness) = flatness else { return Vec::new() };
+    pub fn long_chords(&self, boundary: &Boundary) -> Vec<LongChord> {
+        let Some(flatness) = &self.flatness else { return Vec::new() };
         let mut long = Vec::new();
         for (chain, runs) in boundary.iter().enumerate() {
             for (run, samples) in runs.iter().enumerate() {
                 for (index, pair) in samples.windows(2).enumerate() {
                     let uv = [pair[0].uv, pair[1].uv];
                     let p = uv.map(|uv| self.ground.point(uv));
-                    if flatness.chord(uv, p) > self.tolerance && p[0].distance(p[1]) > 1e-3 * self.tolerance {
+                    if flatness.chord(uv, p) > CHORD_LIMIT * self.tolerance
+                        && p[0].distance(p[1]) > 1e-3 * self.tolerance
+                    {
                         long.push(LongChord { chain, run, index });
                     }
                 }
             }
         }
         long
+    }
+
+    /// Makes parameters of boundary vertices that differ by rounding alone the same, u and v apart: chords along
+    /// lines of constant parameters shall be collinear.
+    fn align(&self, uvs: &mut [DVec2]) {
+        /// Part of the domain that is rounding.
+        const ROUNDING: f64 = 1e-10;
+        let domain = &self.face.domain;
+        for axis in 0..2 {
+            let slack = ROUNDING * domain.size()[axis];
+            let mut order: Vec<usize> = (0..uvs.len()).collect();
+            order.sort_by(|a, b| uvs[*a][axis].total_cmp(&uvs[*b][axis]).then(a.cmp(b)));
+            let mut common = f64::NEG_INFINITY;
+            let mut before = f64::NEG_INFINITY;
+            for k in order {
+                let x = uvs[k][axis];
+                if x - before > slack {
+                    common = x;
+                }
+                before = x;
+                uvs[k][axis] = common;
+            }
+        }
     }
 
     /// A vertex where two chords cross.
@@ -234,6 +286,20 @@ impl<'a> Tessellator<'a> {
         let scale = 1.0 / step;
         if scale.is_finite() && scale.min_element() > 0.0 { scale } else { 1.0 / size }
     }
+}
+
+/// Edges of triangles that look away from the surface: where one of them is a chord it is too long.
+fn folded(vertices: &Vertices, triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let mut edges = Vec::new();
+    for t in triangles {
+        let p = t.map(|v| vertices.positions[v as usize]);
+        let side: DVec3 = t.iter().map(|v| vertices.normals[*v as usize]).sum();
+        let solid = p[0] != p[1] && p[1] != p[2] && p[2] != p[0];
+        if solid && (p[1] - p[0]).cross(p[2] - p[0]).dot(side) <= 0.0 {
+            edges.extend((0..3).map(|k| [t[k], t[(k + 1) % 3]]));
+        }
+    }
+    edges
 }
 
 /// Leaves out vertices without triangles and triangles without area, and names what is left anew.
@@ -288,23 +354,64 @@ pub fn tessellate_with(
             *samples = simplify(samples, rest, longest);
         }
     }
+    let mut parts = BTreeMap::new();
+    for _ in 0..ROUNDS {
+        let long = tessellator.long_chords(&boundary);
+        if long.is_empty() {
+            break;
+        }
+        tessellator.shorten(&mut boundary, &long, &mut parts);
+    }
     for _ in 0..ROUNDS {
         let (mesh, long) = tessellator.mesh(&boundary, cancelled)?;
         if long.is_empty() {
             return Ok(mesh);
         }
-        for chord in long.iter().rev() {
-            let run = &tessellator.outline.chains[chord.chain][chord.run];
-            halve_chord(run, &mut boundary[chord.chain][chord.run], chord.index);
-        }
+        tessellator.shorten(&mut boundary, &long, &mut parts);
     }
     tessellator.mesh(&boundary, cancelled).map(|found| found.0)
 }
 
-/// Puts a vertex in the middle of a chord.
+impl Tessellator<'_> {
+    /// Divides chords that are too long: a run of which many are is divided anew for a smaller part of the
+    /// tolerance (kept in `parts`), so that its chords stay even; else each is halved.
+    fn shorten(
+        &self,
+        boundary: &mut Boundary,
+        long: &[LongChord],
+        parts: &mut BTreeMap<(usize, usize), f64>,
+    ) {
+        for group in long.chunk_by(|a, b| (a.chain, a.run) == (b.chain, b.run)) {
+            let LongChord { chain, run, .. } = group[0];
+            let samples = &mut boundary[chain][run];
+            let source = &self.outline.chains[chain][run];
+            if is_common(group.len(), samples.len() - 1) {
+                let part = parts.entry((chain, run)).or_insert(1.0);
+                *part *= STEP;
+                *samples = self.divide(source, *part);
+            } else {
+                for chord in group.iter().rev() {
+                    halve_chord(source, samples, chord.index);
+                }
+            }
+        }
+    }
+}
+
+/// Whether so many of a run's chords are too long that it is divided anew.
+pub fn is_common(long: usize, all: usize) -> bool {
+    all > 2 && 3 * long >= all
+}
+
+/// What the tolerance of a run that is divided anew shrinks by.
+pub const STEP: f64 = 0.8;
+
+/// Puts a vertex in the middle of a chord, or near it where pieces of the run meet: creases of the surface lie there.
 pub fn halve_chord(run: &super::outline::Run, samples: &mut Vec<EdgeSample>, index: usize) {
     let (a, b) = (samples[index].s, samples[index + 1].s);
-    let s = 0.5 * (a + b);
+    let middle = 0.5 * (a + b);
+    let joint = middle.round();
+    let s = if (joint - middle).abs() < 0.3 * (b - a) { joint } else { middle };
     if s > a && s < b {
         samples.insert(index + 1, EdgeSample { s, uv: run.uv(s), point: run.point(s) });
     }

@@ -5,6 +5,8 @@
 //! connected region by even-odd over all chords, as the rest of the program does; points inserted later inherit it.
 //! Holes need no bridges: they are constraints like any others.
 
+use std::collections::BTreeSet;
+
 use glam::DVec2;
 use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation};
@@ -89,12 +91,23 @@ impl Region {
             hint = handle.or(hint);
         }
         let mut crossings = Crossings::default();
+        let mut odd: BTreeSet<[usize; 2]> = BTreeSet::new();
         for ring in loops {
             for (k, from) in ring.iter().enumerate() {
                 let to = ring[(k + 1) % ring.len()];
                 let (Some(a), Some(b)) = (handles[*from as usize], handles[to as usize]) else { continue };
-                if a == b || !delaunay.try_add_constraint(a, b).is_empty() || delaunay.exists_constraint(a, b)
-                {
+                if a == b {
+                    continue;
+                }
+                let laid = delaunay.try_add_constraint(a, b);
+                for edge in &laid {
+                    let [from, to] = delaunay.directed_edge(*edge).vertices().map(|v| v.fix().index());
+                    let key = [from.min(to), from.max(to)];
+                    if !odd.remove(&key) {
+                        odd.insert(key);
+                    }
+                }
+                if !laid.is_empty() {
                     continue;
                 }
                 for edge in delaunay.get_conflicting_edges_between_vertices(a, b) {
@@ -113,11 +126,38 @@ impl Region {
             number += 1;
         }
         let mut region = Self { delaunay };
-        region.flood(places, loops);
+        if crossings.places.is_empty() {
+            region.spread(&odd);
+        } else {
+            region.flood(places, loops);
+        }
         (region, crossings)
     }
 
-    /// Marks every triangle as inside or outside.
+    /// Marks every triangle as inside or outside, from the outside inwards: the side changes at chords laid an odd number
+    /// of times. No numbers are compared, so triangles of no width are right as well.
+    fn spread(&mut self, odd: &BTreeSet<[usize; 2]>) {
+        let mut open: Vec<(FixedFaceHandle<InnerTag>, bool)> = Vec::new();
+        let changes = |from: usize, to: usize| odd.contains(&[from.min(to), from.max(to)]);
+        for edge in self.delaunay.convex_hull() {
+            let [from, to] = edge.vertices().map(|v| v.fix().index());
+            let inner = [edge.face(), edge.rev().face()].into_iter().filter_map(|f| f.as_inner());
+            open.extend(inner.map(|f| (f.fix(), changes(from, to))));
+        }
+        while let Some((face, inside)) = open.pop() {
+            if *self.delaunay.face(face).data() != Side::Unknown {
+                continue;
+            }
+            *self.delaunay.face_data_mut(face) = if inside { Side::Inside } else { Side::Outside };
+            for edge in self.delaunay.face(face).adjacent_edges() {
+                let [from, to] = edge.vertices().map(|v| v.fix().index());
+                let next = edge.rev().face().as_inner().map(|f| f.fix());
+                open.extend(next.map(|f| (f, inside != changes(from, to))));
+            }
+        }
+    }
+
+    /// Marks every triangle as inside or outside, each connected region by even-odd at one place.
     fn flood(&mut self, places: &[DVec2], loops: &[Vec<u32>]) {
         let faces: Vec<FixedFaceHandle<InnerTag>> = self.delaunay.fixed_inner_faces().collect();
         for start in faces {

@@ -1,0 +1,292 @@
+//! The meshes of all faces of a model, with common vertices along their seams.
+//!
+//! Faces are prepared, seams found and divided, chords shortened until every face at them is content, and faces meshed:
+//! all in parallel and in a fixed order, so that the same model gives the same mesh bit for bit. After an edit only
+//! faces whose own surface or chords changed are meshed again.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::seams::{Seams, run_of};
+use crate::kernel::face::Face;
+use crate::kernel::tessellate::tessellator::{STEP, is_common};
+use crate::kernel::tessellate::{
+    Boundary, EdgeSample, FaceMesh, LongChord, TessellateError, TessellationOptions, Tessellator,
+};
+use crate::kernel::view::Bounds;
+
+/// Meshes of the faces of a model.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ModelMesh {
+    /// Mesh of each face in order, or why it has none. The triangles' sense is that of `du x dv`.
+    pub faces: Vec<Result<FaceMesh, TessellateError>>,
+    /// Chords of each face, by which unchanged faces are known again.
+    boundaries: Vec<Boundary>,
+    /// Number of seams, shared ones and borders.
+    pub seams: usize,
+}
+
+impl ModelMesh {
+    /// Number of triangles.
+    pub fn triangle_count(&self) -> usize {
+        self.faces.iter().flatten().map(|m| m.triangles.len()).sum()
+    }
+}
+
+/// How a long job is followed and called off.
+pub struct Work<'a> {
+    /// Told the part done, 0 to 1.
+    pub progress: &'a (dyn Fn(f64) + Sync),
+    /// Asked now and then whether to give up.
+    pub cancelled: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Work<'_> {
+    /// Neither followed nor called off.
+    pub const QUIET: Work<'static> = Work { progress: &|_| (), cancelled: &|| false };
+}
+
+/// Rounds of shortening chords before and after meshing.
+const ROUNDS: usize = 8;
+/// Rounds in which faces are meshed again for chords that cross or stand in the way.
+const MESH_ROUNDS: usize = 4;
+/// Share of the tolerance within which outlines meet.
+const REACH: f64 = 0.5;
+/// The same as a part of the model's size, at most and at least.
+const FARTHEST: f64 = 2e-4;
+const NEAREST: f64 = 1e-9;
+
+/// Meshes `faces` (`None` for those that could not be derived) with common vertices.
+///
+/// # Errors
+/// Bad options, too many triangles, or called off; what goes wrong with single faces is told per face.
+pub fn mesh_faces(
+    faces: &[Option<&Face>],
+    options: &TessellationOptions,
+    work: &Work,
+) -> Result<ModelMesh, TessellateError> {
+    remesh_faces(faces, options, &ModelMesh::default(), &|_| true, work)
+}
+
+/// The same, taking over the meshes of `previous` (of the same options) for faces that did not change and whose chords
+/// are the same.
+///
+/// # Errors
+/// As for [`mesh_faces`].
+pub fn remesh_faces(
+    faces: &[Option<&Face>],
+    options: &TessellationOptions,
+    previous: &ModelMesh,
+    changed: &(dyn Fn(usize) -> bool + Sync),
+    work: &Work,
+) -> Result<ModelMesh, TessellateError> {
+    options.check()?;
+    let prepared: Vec<Result<Tessellator, TessellateError>> = faces
+        .par_iter()
+        .map(|face| match face {
+            Some(face) => Tessellator::new(face, options),
+            None => Err(TessellateError::Empty),
+        })
+        .collect();
+    let mut failed: Vec<Option<TessellateError>> = Vec::with_capacity(faces.len());
+    let prepared: Vec<Option<Tessellator>> = prepared
+        .into_iter()
+        .map(|p| match p {
+            Ok(tessellator) => {
+                failed.push(None);
+                Some(tessellator)
+            }
+            Err(error) => {
+                failed.push(Some(error));
+                None
+            }
+        })
+        .collect();
+    (work.progress)(0.1);
+    let bounds = faces.iter().flatten().fold(Bounds::EMPTY, |b, f| b.union(f.bounds));
+    let size = bounds.diagonal();
+    let reach = (REACH * options.tolerance).min(FARTHEST * size).max(NEAREST * size);
+    let seams = Seams::new(&prepared, reach);
+    let mut division = Division::new(&seams, &prepared);
+    (work.progress)(0.25);
+    for _ in 0..ROUNDS {
+        if (work.cancelled)() {
+            return Err(TessellateError::Cancelled);
+        }
+        let long = division.long_chords();
+        if long.is_empty() {
+            break;
+        }
+        division.shorten(&long);
+    }
+    (work.progress)(0.35);
+    let mut meshes: Vec<Option<Result<FaceMesh, TessellateError>>> =
+        failed.into_iter().map(|e| e.map(Err)).collect();
+    let mut boundaries = division.boundaries();
+    for (face, mesh) in meshes.iter_mut().enumerate() {
+        let same = !changed(face) && previous.boundaries.get(face).is_some_and(|b| *b == boundaries[face]);
+        if mesh.is_none() && same {
+            *mesh = previous.faces.get(face).cloned();
+        }
+    }
+    let done = AtomicUsize::new(0);
+    let triangles = AtomicUsize::new(0);
+    for round in 0..=MESH_ROUNDS {
+        let found: Vec<_> = meshes
+            .par_iter()
+            .enumerate()
+            .map(|(face, mesh)| {
+                let tessellator = prepared[face].as_ref()?;
+                if mesh.is_some() {
+                    return None;
+                }
+                if (work.cancelled)() {
+                    return Some(Err(TessellateError::Cancelled));
+                }
+                let result = tessellator.mesh(&boundaries[face], &|| {
+                    (work.cancelled)() || triangles.load(Ordering::Relaxed) > options.triangle_limit
+                });
+                if let Ok((mesh, _)) = &result {
+                    triangles.fetch_add(mesh.triangles.len(), Ordering::Relaxed);
+                }
+                if round == 0 {
+                    let part = done.fetch_add(1, Ordering::Relaxed) as f64 / faces.len() as f64;
+                    (work.progress)(0.35 + 0.6 * part);
+                }
+                Some(result)
+            })
+            .collect();
+        let mut long = Vec::new();
+        for (face, result) in found.into_iter().enumerate() {
+            match result {
+                None => {}
+                Some(Ok((mesh, chords))) => {
+                    long.extend(chords.into_iter().map(|chord| (face, chord)));
+                    meshes[face] = Some(Ok(mesh));
+                }
+                Some(Err(TessellateError::Cancelled)) if (work.cancelled)() => {
+                    return Err(TessellateError::Cancelled);
+                }
+                Some(Err(TessellateError::Cancelled)) => {
+                    return Err(TessellateError::TooManyTriangles { limit: options.triangle_limit });
+                }
+                Some(Err(error)) => meshes[face] = Some(Err(error)),
+            }
+        }
+        let count: usize = meshes.iter().flatten().flatten().map(|m| m.triangles.len()).sum();
+        if count > options.triangle_limit {
+            return Err(TessellateError::TooManyTriangles { limit: options.triangle_limit });
+        }
+        triangles.store(count, Ordering::Relaxed);
+        if long.is_empty() || round == MESH_ROUNDS {
+            break;
+        }
+        for face in division.shorten(&long) {
+            boundaries[face] = division.boundary(face);
+            if prepared[face].is_some() {
+                if let Some(Ok(mesh)) = &meshes[face] {
+                    triangles.fetch_sub(
+                        mesh.triangles.len().min(triangles.load(Ordering::Relaxed)),
+                        Ordering::Relaxed,
+                    );
+                }
+                meshes[face] = None;
+            }
+        }
+    }
+    (work.progress)(1.0);
+    let faces = meshes.into_iter().map(|m| m.unwrap_or(Err(TessellateError::Empty))).collect();
+    Ok(ModelMesh { faces, boundaries, seams: seams.seams.len() })
+}
+
+/// The vertices of all seams while they are worked out.
+struct Division<'s, 'f, 'a> {
+    seams: &'s Seams,
+    faces: &'f [Option<Tessellator<'a>>],
+    /// Samples of each seam on its first stretch.
+    samples: Vec<Vec<EdgeSample>>,
+    /// Part of the tolerance that each seam is divided for.
+    parts: Vec<f64>,
+    /// Stretches of each face's runs, in order.
+    stretches: BTreeMap<(usize, usize, usize), Vec<usize>>,
+}
+
+impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
+    fn new(seams: &'s Seams, faces: &'f [Option<Tessellator<'a>>]) -> Self {
+        let mut stretches: BTreeMap<(usize, usize, usize), Vec<usize>> = BTreeMap::new();
+        for (k, stretch) in seams.stretches.iter().enumerate() {
+            let a = stretch.address;
+            stretches.entry((a.face, a.chain, a.run)).or_default().push(k);
+        }
+        let samples =
+            (0..seams.seams.len()).into_par_iter().map(|seam| seams.divide(seam, faces, 1.0)).collect();
+        Self { seams, faces, samples, parts: vec![1.0; seams.seams.len()], stretches }
+    }
+
+    /// The chords of a face.
+    fn boundary(&self, face: usize) -> Boundary {
+        let Some(tessellator) = &self.faces[face] else { return Boundary::new() };
+        let run = |chain: usize, run: usize| {
+            let mut samples: Vec<EdgeSample> = Vec::new();
+            for number in self.stretches.get(&(face, chain, run)).into_iter().flatten() {
+                let seam = self.seams.stretches[*number].seam;
+                let own = self.seams.transfer(*number, &self.samples[seam], self.faces);
+                samples.extend(own.into_iter().skip(usize::from(!samples.is_empty())));
+            }
+            samples
+        };
+        let chains = tessellator.outline().chains.iter().enumerate();
+        chains.map(|(c, runs)| (0..runs.len()).map(|r| run(c, r)).collect()).collect()
+    }
+
+    fn boundaries(&self) -> Vec<Boundary> {
+        (0..self.faces.len()).into_par_iter().map(|face| self.boundary(face)).collect()
+    }
+
+    /// Chords that are too long for some face.
+    fn long_chords(&self) -> Vec<(usize, LongChord)> {
+        let of = |face: usize| {
+            let Some(tessellator) = &self.faces[face] else { return Vec::new() };
+            let long = tessellator.long_chords(&self.boundary(face));
+            long.into_iter().map(|chord| (face, chord)).collect()
+        };
+        let all: Vec<Vec<_>> = (0..self.faces.len()).into_par_iter().map(of).collect();
+        all.into_iter().flatten().collect()
+    }
+
+    /// Shortens chords of seams; gives the faces at them.
+    fn shorten(&mut self, long: &[(usize, LongChord)]) -> BTreeSet<usize> {
+        let mut wanted: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+        for (face, chord) in long {
+            let mut index = chord.index;
+            for number in self.stretches.get(&(*face, chord.chain, chord.run)).into_iter().flatten() {
+                let stretch = &self.seams.stretches[*number];
+                let chords = self.samples[stretch.seam].len().saturating_sub(1);
+                if index < chords {
+                    let at = if stretch.forward { index } else { chords - 1 - index };
+                    wanted.entry(stretch.seam).or_default().insert(at);
+                    break;
+                }
+                index -= chords;
+            }
+        }
+        let mut faces = BTreeSet::new();
+        for (seam, chords) in wanted {
+            let first = &self.seams.stretches[self.seams.seams[seam].stretches[0]];
+            faces.extend(
+                self.seams.seams[seam].stretches.iter().map(|k| self.seams.stretches[*k].address.face),
+            );
+            if is_common(chords.len(), self.samples[seam].len().saturating_sub(1)) {
+                self.parts[seam] *= STEP;
+                self.samples[seam] = self.seams.divide(seam, self.faces, self.parts[seam]);
+            } else if let Some((_, run)) = run_of(self.faces, &first.address) {
+                for chord in chords.into_iter().rev() {
+                    crate::kernel::tessellate::tessellator::halve_chord(run, &mut self.samples[seam], chord);
+                }
+            }
+        }
+        faces
+    }
+}
