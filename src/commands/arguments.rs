@@ -22,6 +22,7 @@ Examples:
   printf '1 0.5 0.5\\n' | hairline classify part.igs
   hairline edit part.igs --script edits.json -o part.hairline
   hairline convert part.igs part-in-inches.igs --unit in
+  hairline tessellate part.igs --error 0.1mm -o part.glb
   hairline bench classify
 
 FILE may be the word `demo` for the built-in scene (`./demo` for a file of that name), or `demo:N` for a
@@ -74,8 +75,69 @@ pub enum Command {
     Check(CheckArguments),
     /// Close the gaps that moving trim curves can close, and write the model.
     Mend(MendArguments),
+    /// Turn a model into triangles with a guaranteed error: glTF, STL, OBJ or PLY.
+    Tessellate(TessellateArguments),
     /// Measure speed and print tables.
     Bench(BenchArguments),
+}
+
+/// `hairline tessellate`.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = "\
+Examples:
+  hairline tessellate part.igs --error 0.1mm -o part.glb
+  hairline tessellate part.igs --error 10um --angle 15deg --max-edge 5mm -o part.stl
+  hairline tessellate part.igs --error 0.1mm -o part.ply --json | jq .triangles
+
+The error is the largest distance between mesh and surface, both ways, guaranteed by bounds; with --approximate
+it is estimated at points, for fewer triangles. Faces that share edges share their vertices. The
+true error is measured at samples and told, with the rest of the figures. OBJ files come with a .mtl file.")]
+pub struct TessellateArguments {
+    /// Model to tessellate, or `demo`.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Largest distance between mesh and surface, with a unit: 0.1mm, 10um (a number alone is in millimetres).
+    #[arg(long, value_name = "LENGTH")]
+    pub error: Length,
+    /// Largest angle between the normals of a triangle's corners, and between chords of an edge: 15deg.
+    #[arg(long, value_name = "ANGLE")]
+    pub angle: Option<Angle>,
+    /// Longest edge of a triangle.
+    #[arg(long, value_name = "LENGTH")]
+    pub max_edge: Option<Length>,
+    /// Estimate the error instead of guaranteeing it.
+    #[arg(long)]
+    pub approximate: bool,
+    /// Stop rather than make more triangles than this.
+    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
+    pub limit: usize,
+    /// File to write: .glb, .stl, .obj or .ply.
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// Print the figures as one JSON object.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// An angle in radians, written in degrees or with a unit (`15deg`, `0.2rad`).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Angle(pub f64);
+
+impl FromStr for Angle {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (number, factor) = match (text.strip_suffix("rad"), text.strip_suffix("deg")) {
+            (Some(number), _) => (number, 1.0),
+            (None, Some(number)) => (number, 1f64.to_radians()),
+            (None, None) => (text, 1f64.to_radians()),
+        };
+        let radians = number.trim().parse::<f64>().map(|x| x * factor);
+        match radians {
+            Ok(x) if x.is_finite() && x >= 1e-4 && x <= std::f64::consts::PI => Ok(Self(x)),
+            _ => Err("expected an angle above 0 and up to 180 degrees, such as 15deg".into()),
+        }
+    }
 }
 
 /// `hairline render`.

@@ -15,6 +15,7 @@ pub mod output;
 pub mod progress;
 pub mod render;
 pub mod source;
+pub mod tessellate;
 pub mod window;
 
 use std::process::ExitCode;
@@ -56,6 +57,7 @@ fn dispatch(arguments: &Arguments) -> Result<(), Failure> {
         Some(Command::Edit(arguments)) => edit::run(arguments),
         Some(Command::Check(arguments)) => check::run(arguments),
         Some(Command::Mend(arguments)) => mend::run(arguments),
+        Some(Command::Tessellate(arguments)) => tessellate::run(arguments),
         Some(Command::Bench(arguments)) => bench::run(arguments),
     }
 }

@@ -2,4 +2,5 @@
 
 pub mod boundary;
 pub mod iges;
+pub mod mesh;
 pub mod report;

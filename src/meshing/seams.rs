@@ -176,7 +176,10 @@ impl Seams {
                 _ => {
                     let low = samples[k - 1].s;
                     let guess = (from + (to - from) * share).max(low);
-                    let s = run.project(source.point, guess, (low, to));
+                    let mut s = run.project(source.point, guess, (low, to));
+                    if run.point(s).distance(source.point) > run.point(guess).distance(samples[k - 1].point) {
+                        s = run.nearest(source.point).0;
+                    }
                     // Vertices keep their order even where the curves do not follow each other.
                     if s > low && s < to { s } else { low + (to - low) / (count - k) as f64 }
                 }

@@ -1,69 +1,67 @@
-//! Meshes of all shared faces: none is left out, none is folded, areas fit.
+//! Meshes of shared models: no face is left out, bodies are closed, areas fit, and the program writes them.
 
-use hairline::kernel::query::face_area;
-use hairline::kernel::tessellate::{FaceMesh, TessellationOptions, tessellate};
+use hairline::kernel::face::Face;
+use hairline::kernel::query::{face_area, face_bounds};
+use hairline::kernel::tessellate::TessellationOptions;
+use hairline::kernel::view::Bounds;
+use hairline::meshing::{ModelMesh, Work, measure, mesh_faces, remesh_faces};
 
 use crate::truth;
 
-#[test]
-fn scratch() {
-    let folder = truth::models().unwrap();
-    let only = std::env::var("ONLY").unwrap_or_default();
-    let rel: f64 = std::env::var("REL").map_or(1e-3, |s| s.parse().unwrap());
-    for name in truth::names(&folder) {
-        if !name.contains(&only) {
-            continue;
-        }
-        let model = truth::model(&folder, &name);
-        let mut bounds = hairline::kernel::view::Bounds::EMPTY;
-        let faces: Vec<_> = model.faces.iter().map(|f| f.record().unwrap().derive().unwrap()).collect();
-        for f in &faces {
-            bounds = bounds.union(hairline::kernel::query::face_bounds(f));
-        }
-        let mut o = TessellationOptions::new(rel * bounds.diagonal());
-        o.conservative = std::env::var("APPROX").is_err();
-        let start = std::time::Instant::now();
-        let mut n = 0;
-        let mut over = 0;
-        let mut fails = vec![];
-        let mut off = vec![];
-        let mut cross = 0;
-        let mut worst = 0.0f64;
-        let mut slow = (0.0, 0);
-        for (k, f) in faces.iter().enumerate() {
-            let t = std::time::Instant::now();
-            if std::env::var("EACH").is_ok() {
-                println!("face {}", model.faces[k].id);
-            }
-            match tessellate(f, &o) {
-                Ok(m) => {
-                    n += m.triangles.len();
-                    over += m.quality.over_tolerance;
-                    cross += m.quality.crossings;
-                    worst = worst.max(m.quality.error);
-                    let _: &FaceMesh = &m;
-                    let e = t.elapsed().as_secs_f64();
-                    if e > slow.0 {
-                        slow = (e, model.faces[k].id);
-                    }
-                    let a = face_area(f).value;
-                    let r = (m.area() - a).abs() / a;
-                    if r > 0.02 {
-                        off.push((model.faces[k].id, r));
-                    }
-                }
-                Err(e) => fails.push((model.faces[k].id, e.to_string())),
+/// The faces of a model and their meshes at a part of its size.
+fn meshed(name: &str, part: f64) -> Option<(Vec<Face>, TessellationOptions, ModelMesh)> {
+    let folder = truth::models().or_else(|| {
+        println!("not run: no shared/models here");
+        None
+    })?;
+    let faces: Vec<Face> =
+        truth::model(&folder, name).faces.iter().map(|f| f.record().unwrap().derive().unwrap()).collect();
+    let bounds = faces.iter().fold(Bounds::EMPTY, |b, f| b.union(face_bounds(f)));
+    let options = TessellationOptions::new(part * bounds.diagonal());
+    let all: Vec<Option<&Face>> = faces.iter().map(Some).collect();
+    let mesh = mesh_faces(&all, &options, &Work::QUIET).unwrap();
+    Some((faces, options, mesh))
+}
+
+/// Edges with a triangle on one side only, by exact positions.
+fn open_edges(mesh: &ModelMesh) -> usize {
+    let mut sides = std::collections::BTreeMap::<[[u64; 3]; 2], usize>::new();
+    for m in mesh.faces.iter().flatten() {
+        let key = |v: u32| (m.positions[v as usize] + 0.0).to_array().map(f64::to_bits);
+        for [a, b, c] in &m.triangles {
+            for (p, q) in [(a, b), (b, c), (c, a)] {
+                let (p, q) = (key(*p), key(*q));
+                *sides.entry([p.min(q), p.max(q)]).or_default() += 1;
             }
         }
-        off.sort_by(|a, b| b.1.total_cmp(&a.1));
-        println!(
-            "{name}: {} faces, {n} triangles, {:.3} s, over {over}, cross {cross}, err/tol {:.2}, slow {slow:?} fails {:?} off {} {:?}",
-            faces.len(),
-            start.elapsed().as_secs_f64(),
-            worst / o.tolerance,
-            fails.iter().take(3).collect::<Vec<_>>(),
-            off.len(),
-            off.iter().take(4).collect::<Vec<_>>()
-        );
     }
+    sides.values().filter(|n| **n == 1).count()
+}
+
+#[test]
+fn closed_bodies_come_out_closed_and_within_the_tolerance() {
+    for name in
+        ["axom_sliced_cylinder.step", "igesio_single_rounded_cube.iges", "elmer_cylinder_in_channel.iges"]
+    {
+        let Some((faces, options, mesh)) = meshed(name, 1e-3) else { return };
+        assert_eq!(open_edges(&mesh), 0, "{name}");
+        let all: Vec<Option<&Face>> = faces.iter().map(Some).collect();
+        let distance = measure(&all, &mesh, 4, 20_000);
+        assert!(distance.samples > 500, "{name}: {distance:?}");
+        assert!(distance.largest() <= options.tolerance * (1.0 + 1e-9), "{name}: {distance:?}");
+        for (face, m) in faces.iter().zip(&mesh.faces) {
+            let (found, exact) = (m.as_ref().unwrap().area(), face_area(face).value);
+            assert!((found - exact).abs() < 0.03 * exact, "{name}: {found} for {exact}");
+        }
+    }
+}
+
+#[test]
+fn the_same_model_gives_the_same_mesh_and_unchanged_faces_are_taken_over() {
+    let Some((faces, options, mesh)) = meshed("axom_sliced_cylinder.step", 1e-3) else { return };
+    let all: Vec<Option<&Face>> = faces.iter().map(Some).collect();
+    assert_eq!(mesh_faces(&all, &options, &Work::QUIET).unwrap(), mesh);
+    assert_eq!(remesh_faces(&all, &options, &mesh, &|face| face == 0, &Work::QUIET).unwrap(), mesh);
+    let called_off = Work { progress: &|_| (), cancelled: &|| true };
+    assert!(mesh_faces(&all, &options, &called_off).is_err());
 }

@@ -19,7 +19,9 @@ pub fn glb(groups: &[Group], name: &str, metres: f64) -> Vec<u8> {
     let mut parts: Vec<(&str, Vec<usize>)> = Vec::new();
     let mut nodes: Vec<Value> = vec![Value::Null];
     let mut add = |bytes: Vec<u8>, target: u32, accessor: Value| -> usize {
-        views.push(json!({ "buffer": 0, "byteOffset": buffer.len(), "byteLength": bytes.len(), "target": target }));
+        views.push(
+            json!({ "buffer": 0, "byteOffset": buffer.len(), "byteLength": bytes.len(), "target": target }),
+        );
         buffer.extend(bytes);
         let mut accessor = accessor;
         accessor["bufferView"] = json!(views.len() - 1);
@@ -33,7 +35,8 @@ pub fn glb(groups: &[Group], name: &str, metres: f64) -> Vec<u8> {
         let limit = |pick: fn(f32, f32) -> f32, start: f32| {
             [0, 1, 2].map(|k| positions.iter().map(|p| p[k]).fold(start, pick))
         };
-        let floats = |rows: &mut dyn Iterator<Item = f32>| rows.flat_map(f32::to_le_bytes).collect::<Vec<u8>>();
+        let floats =
+            |rows: &mut dyn Iterator<Item = f32>| rows.flat_map(f32::to_le_bytes).collect::<Vec<u8>>();
         let position = add(
             floats(&mut positions.iter().flatten().copied()),
             ARRAY,

@@ -61,12 +61,16 @@ fn bytes(colour: [f32; 3]) -> [u8; 3] {
 
 /// All vertices with the same position as one, in order of appearance: the number of each vertex of each group.
 fn welded(groups: &[Group]) -> (Vec<DVec3>, Vec<Vec<u32>>) {
-    let mut order: Vec<(usize, usize)> =
-        groups.iter().enumerate().flat_map(|(g, group)| (0..group.mesh.positions.len()).map(move |k| (g, k))).collect();
+    let mut order: Vec<(usize, usize)> = groups
+        .iter()
+        .enumerate()
+        .flat_map(|(g, group)| (0..group.mesh.positions.len()).map(move |k| (g, k)))
+        .collect();
     let at = |(g, k): (usize, usize)| groups[g].mesh.positions[k];
     let key = |p: DVec3| (p + 0.0).to_array().map(f64::to_bits);
     order.sort_by_key(|v| key(at(*v)));
-    let mut first: Vec<Vec<(usize, usize)>> = groups.iter().map(|g| vec![(0, 0); g.mesh.positions.len()]).collect();
+    let mut first: Vec<Vec<(usize, usize)>> =
+        groups.iter().map(|g| vec![(0, 0); g.mesh.positions.len()]).collect();
     for run in order.chunk_by(|a, b| key(at(*a)) == key(at(*b))) {
         let least = run.iter().copied().min().unwrap_or(run[0]);
         run.iter().for_each(|(g, k)| first[*g][*k] = least);

@@ -48,8 +48,6 @@ impl Range {
 
 /// A part of a patch with the ranges of its derivatives in native parameters.
 struct Part {
-    min: DVec2,
-    max: DVec2,
     origin: DVec3,
     uu: Range,
     uv: Range,
@@ -92,7 +90,6 @@ impl Part {
         let weight_v =
             interval(&mut grid(m + 1, n).map(|(i, j)| (at(i, j + 1).w - at(i, j).w) * nf / size.y));
         let least_weight = patch.weights.iter().copied().fold(f64::INFINITY, f64::min);
-        let (min, max) = (patch.uv_min, patch.uv_max);
         // |S'| <= (|A'| + |w'| |S|) / w, all from the part's middle.
         let reach = patch.points.iter().map(|p| p.distance(origin)).fold(0.0, f64::max);
         let slope = |d: &mut dyn Iterator<Item = DVec4>| {
@@ -102,7 +99,7 @@ impl Part {
             slope(&mut grid(m, n + 1).map(|(i, j)| (at(i + 1, j) - at(i, j)) * (mf / size.x))),
             slope(&mut grid(m + 1, n).map(|(i, j)| (at(i, j + 1) - at(i, j)) * (nf / size.y))),
         );
-        Self { min, max, origin, uu, uv, vv, weight_u, weight_v, least_weight, slopes }
+        Self { origin, uu, uv, vv, weight_u, weight_v, least_weight, slopes }
     }
 }
 

@@ -196,6 +196,7 @@ impl Outline {
                     cut_and_lift(&curve, ground, precision, &mut run.pieces);
                 }
             }
+            runs.iter_mut().for_each(|run| drop_crumbs(run, face.domain.size()));
             runs.retain(|run| !run.pieces.is_empty());
             runs
         };
@@ -206,6 +207,42 @@ impl Outline {
     pub fn runs(&self) -> impl Iterator<Item = (usize, usize, &Run)> {
         let chains = self.chains.iter().enumerate();
         chains.flat_map(|(c, runs)| runs.iter().enumerate().map(move |(r, run)| (c, r, run)))
+    }
+}
+
+/// Takes out pieces that are rounding: they would stall whoever walks along the run. Their neighbours close up.
+fn drop_crumbs(run: &mut Run, domain: DVec2) {
+    /// Part of the domain that is rounding.
+    const CRUMB: f64 = 1e-9;
+    let is_crumb = |piece: &LiftedPiece| {
+        let (low, high) = piece.uv.hull();
+        ((high - low) / domain).max_element() < CRUMB
+    };
+    if !run.pieces.iter().any(is_crumb) {
+        return;
+    }
+    let mut kept: Vec<LiftedPiece> = Vec::with_capacity(run.pieces.len());
+    let mut start: Option<(DVec2, DVec3)> = None;
+    for mut piece in run.pieces.drain(..) {
+        if is_crumb(&piece) {
+            match kept.last_mut() {
+                Some(before) => set_end(before, piece.uv.end(), piece.space.end()),
+                None => start = start.or(Some((piece.uv.start(), piece.space.start()))),
+            }
+            continue;
+        }
+        if let Some((uv, point)) = start.take() {
+            piece.uv.points[0] = uv;
+            piece.space.points[0] = point;
+        }
+        kept.push(piece);
+    }
+    run.pieces = kept;
+}
+
+fn set_end(piece: &mut LiftedPiece, uv: DVec2, point: DVec3) {
+    if let (Some(last), Some(end)) = (piece.uv.points.last_mut(), piece.space.points.last_mut()) {
+        (*last, *end) = (uv, point);
     }
 }
 

@@ -135,15 +135,18 @@ impl<'a> Tessellator<'a> {
         for (chain, runs) in boundary.iter().enumerate() {
             let mut ring = Vec::new();
             for (run, samples) in runs.iter().enumerate() {
-                for (index, sample) in samples.iter().enumerate().take(samples.len().saturating_sub(1)) {
-                    let number = vertices.uvs.len() as u32;
-                    ring.push((number, LongChord { chain, run, index }));
-                    refinement.add(&mut vertices, sample.uv);
-                    let last = vertices.positions.len() - 1;
-                    vertices.positions[last] = sample.point;
-                    quality.gap = quality.gap.max(sample.point.distance(vertices.on_surface[last]));
-                    if !(sample.point.is_finite() && vertices.on_surface[last].is_finite()) {
-                        return Err(TessellateError::NotFinite { u: sample.uv.x, v: sample.uv.y });
+                for (index, pair) in samples.windows(2).enumerate() {
+                    let owner = LongChord { chain, run, index };
+                    for sample in self.along(pair, scale) {
+                        let number = vertices.uvs.len() as u32;
+                        ring.push((number, owner));
+                        refinement.add(&mut vertices, sample.uv);
+                        let last = vertices.positions.len() - 1;
+                        vertices.positions[last] = sample.point;
+                        quality.gap = quality.gap.max(sample.point.distance(vertices.on_surface[last]));
+                        if !(sample.point.is_finite() && vertices.on_surface[last].is_finite()) {
+                            return Err(TessellateError::NotFinite { u: sample.uv.x, v: sample.uv.y });
+                        }
                     }
                 }
             }
@@ -213,6 +216,21 @@ impl<'a> Tessellator<'a> {
             }
         }
         long
+    }
+
+    /// The first vertex of a chord; and where the chord is one point (a pole) others at the same position, so that the
+    /// triangles that end there are no wider than others.
+    fn along(&self, pair: &[EdgeSample], scale: DVec2) -> Vec<EdgeSample> {
+        /// Vertices along a pole at most.
+        const MOST: f64 = 256.0;
+        let (a, b) = (pair[0], pair[1]);
+        let step = ((b.uv - a.uv) * scale).length();
+        if a.point != b.point || self.plane.is_some() || !(step > 1.0) {
+            return vec![a];
+        }
+        let count = step.min(MOST).ceil() as usize;
+        let at = |k: usize| a.uv.lerp(b.uv, k as f64 / count as f64);
+        (0..count).map(|k| EdgeSample { uv: at(k), ..a }).collect()
     }
 
     /// Makes parameters of boundary vertices that differ by rounding alone the same, u and v apart: chords along

@@ -233,11 +233,17 @@ impl Region {
     ) -> Option<Vec<[FixedVertexHandle; 3]>> {
         let site = Site { place: point(at), number };
         let free = match self.delaunay.locate_with_hint(site.place, hint) {
-            PositionInTriangulation::OnFace(face) => *self.delaunay.face(face).data() == Side::Inside,
+            PositionInTriangulation::OnFace(face) => {
+                *self.delaunay.face(face).data() == Side::Inside && self.is_clear(face, at)
+            }
             PositionInTriangulation::OnEdge(edge) => {
                 let edge = self.delaunay.directed_edge(edge);
                 let inside = edge.face().as_inner().is_some_and(|f| *f.data() == Side::Inside);
-                inside && !edge.is_constraint_edge()
+                let clear = |f: Option<FixedFaceHandle<InnerTag>>| f.is_none_or(|f| self.is_clear(f, at));
+                inside
+                    && !edge.is_constraint_edge()
+                    && clear(edge.face().as_inner().map(|f| f.fix()))
+                    && clear(edge.rev().face().as_inner().map(|f| f.fix()))
             }
             _ => false,
         };
@@ -256,6 +262,16 @@ impl Region {
             *self.delaunay.face_data_mut(*face) = Side::Inside;
         }
         Some(around.into_iter().map(|f| self.delaunay.face(f).vertices().map(|v| v.fix())).collect())
+    }
+
+    /// Whether a place is not so near to a chord of the triangle that the triangle between them would be a sliver.
+    fn is_clear(&self, face: FixedFaceHandle<InnerTag>, at: DVec2) -> bool {
+        const NEAREST: f64 = 0.01;
+        let edges = self.delaunay.face(face).adjacent_edges();
+        edges.into_iter().filter(|e| e.is_constraint_edge()).all(|e| {
+            let [a, b] = e.positions().map(place);
+            (b - a).perp_dot(at - a) > NEAREST * a.distance_squared(b)
+        })
     }
 
     /// Number of triangles, outside ones included.

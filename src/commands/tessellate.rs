@@ -1,0 +1,272 @@
+//! `hairline tessellate`: a model as triangles with a guaranteed error, into a mesh file.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::time::Instant;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::arguments::TessellateArguments;
+use super::failure::Failure;
+use super::progress::Progress;
+use super::{output, source};
+use crate::exchange::mesh::{self, Group, PLAIN};
+use crate::inspect::Length;
+use crate::kernel::face::Face;
+use crate::kernel::tessellate::{TessellateError, TessellationOptions};
+use crate::kernel::view::Bounds;
+use crate::meshing::{Distance, ModelMesh, Work, measure, mesh_faces};
+use crate::scene::records::{FaceRecord, ModelRecord};
+
+/// A format that can be written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Format {
+    Glb,
+    Stl,
+    Obj,
+    Ply,
+}
+
+/// What is told about a mesh. Lengths in units of the model, times in seconds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Unit of the model.
+    pub unit: String,
+    /// The tolerance that was kept to.
+    pub tolerance: f64,
+    /// Whether the tolerance is guaranteed by bounds.
+    pub conservative: bool,
+    /// Faces with a mesh.
+    pub faces: usize,
+    /// Faces without, by number, with the reason.
+    pub left_out: Vec<(usize, String)>,
+    /// Triangles.
+    pub triangles: usize,
+    /// Edges of triangles, shared ones once.
+    pub edges: usize,
+    /// Edges with a triangle on one side only.
+    pub open_edges: usize,
+    /// Distance between mesh and exact faces, measured at samples.
+    pub measured: Distance,
+    /// Triangles that could not be brought within the tolerance.
+    pub over_tolerance: usize,
+    /// Largest distance by which vertices were moved to close gaps between faces.
+    pub gap: f64,
+    /// Seconds to prepare faces.
+    pub prepare_s: f64,
+    /// Seconds to tessellate.
+    pub tessellate_s: f64,
+}
+
+/// Samples along an edge when the error is measured, and of one face at most.
+const DENSITY: usize = 3;
+const SAMPLES: usize = 20_000;
+/// Smaller tolerances than this part of the model's size drown in rounding.
+const FINEST: f64 = 1e-9;
+
+/// Tessellates `arguments.file` into `arguments.output`.
+///
+/// # Errors
+/// The input cannot be read, the output not written, the tolerance is no use for the model, or there are more
+/// triangles than allowed.
+pub fn run(arguments: &TessellateArguments) -> Result<(), Failure> {
+    let format = format_of(&arguments.output)?;
+    output::check_writable(&arguments.output)?;
+    let progress = Progress::start(format!("reading {}", arguments.file.display()));
+    let opened = source::open(&arguments.file, &|part| progress.set(part))?;
+    drop(progress);
+    if let Some(line) = source::remarks_line(&arguments.file, &opened.report) {
+        eprintln!("hairline: note: {line}");
+    }
+    let model = opened.model;
+    let start = Instant::now();
+    let derived = model.derive_all();
+    let faces: Vec<Option<&Face>> = derived.iter().map(|f| f.as_ref().ok()).collect();
+    let prepare_s = start.elapsed().as_secs_f64();
+    let options = options(arguments, &model, &faces)?;
+    let progress = Progress::start("tessellating");
+    let start = Instant::now();
+    let work = Work { progress: &|part| progress.set(part), cancelled: &|| false };
+    let meshed = mesh_faces(&faces, &options, &work).map_err(|error| refusal(&error, arguments))?;
+    let tessellate_s = start.elapsed().as_secs_f64();
+    drop(progress);
+    let mut statistics = statistics(&model, &faces, &meshed, &options);
+    for (face, error) in derived.iter().enumerate() {
+        if let (Err(error), Some(entry)) = (error, statistics.left_out.iter_mut().find(|l| l.0 == face + 1)) {
+            entry.1 = error.to_string();
+        }
+    }
+    (statistics.prepare_s, statistics.tessellate_s) = (prepare_s, tessellate_s);
+    for (face, reason) in &statistics.left_out {
+        eprintln!("hairline: note: {}: face {face} is left out: {reason}", arguments.file.display());
+    }
+    write(&model, &meshed, format, &arguments.output)?;
+    tell(&statistics, arguments.json).map_err(|e| Failure::stdout(&e))
+}
+
+fn format_of(path: &Path) -> Result<Format, Failure> {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    match ending.as_str() {
+        "glb" => Ok(Format::Glb),
+        "stl" => Ok(Format::Stl),
+        "obj" => Ok(Format::Obj),
+        "ply" => Ok(Format::Ply),
+        _ => Err(Failure::Usage {
+            reason: format!("{}: the name must end in .glb, .stl, .obj or .ply", path.display()),
+        }),
+    }
+}
+
+/// The options in units of the model, with a tolerance that makes sense for it.
+fn options(
+    arguments: &TessellateArguments,
+    model: &ModelRecord,
+    faces: &[Option<&Face>],
+) -> Result<TessellationOptions, Failure> {
+    let unit = model.unit.millimetres;
+    let bounds = faces.iter().flatten().fold(Bounds::EMPTY, |b, f| b.union(f.bounds));
+    let size = if bounds.is_empty() { 0.0 } else { bounds.diagonal() };
+    let mut tolerance = arguments.error.mm / unit;
+    if size > 0.0 && tolerance < FINEST * size {
+        return Err(Failure::Usage {
+            reason: format!(
+                "--error {} is below what numbers can tell apart on a model of {}; use {} or more",
+                arguments.error,
+                Length { mm: size * unit },
+                Length { mm: FINEST * size * unit }
+            ),
+        });
+    }
+    let largest = 0.1 * size;
+    if size > 0.0 && tolerance > largest {
+        eprintln!(
+            "hairline: note: --error {} is large for a model of {}; {} is used",
+            arguments.error,
+            Length { mm: size * unit },
+            Length { mm: largest * unit }
+        );
+        tolerance = largest;
+    }
+    Ok(TessellationOptions {
+        conservative: !arguments.approximate,
+        max_angle: arguments.angle.map(|a| a.0),
+        max_edge: arguments.max_edge.map(|l| l.mm / unit),
+        triangle_limit: arguments.limit,
+        ..TessellationOptions::new(tolerance)
+    })
+}
+
+fn refusal(error: &TessellateError, arguments: &TessellateArguments) -> Failure {
+    match error {
+        TessellateError::TooManyTriangles { limit } => Failure::Work {
+            reason: format!(
+                "this needs more than {limit} triangles; choose a larger --error than {}, or allow more with --limit N",
+                arguments.error
+            ),
+        },
+        other => Failure::Work { reason: other.to_string() },
+    }
+}
+
+/// Figures of a mesh, its error measured.
+pub fn statistics(
+    model: &ModelRecord,
+    faces: &[Option<&Face>],
+    mesh: &ModelMesh,
+    options: &TessellationOptions,
+) -> Statistics {
+    let meshes = || mesh.faces.iter().flatten();
+    let mut sides: Vec<[[u64; 3]; 2]> = meshes()
+        .flat_map(|m| {
+            let key = |v: u32| (m.positions[v as usize] + 0.0).to_array().map(f64::to_bits);
+            m.triangles.iter().flat_map(move |[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]).map(move |e| {
+                let [a, b] = e.map(key);
+                [a.min(b), a.max(b)]
+            })
+        })
+        .collect();
+    sides.par_sort_unstable();
+    let (mut edges, mut open_edges) = (0, 0);
+    for same in sides.chunk_by(|a, b| a == b) {
+        edges += 1;
+        open_edges += usize::from(same.len() == 1);
+    }
+    let left_out = mesh.faces.iter().enumerate();
+    Statistics {
+        unit: model.unit.name.clone(),
+        tolerance: options.tolerance,
+        conservative: options.conservative,
+        faces: meshes().count(),
+        left_out: left_out.filter_map(|(k, m)| Some((k + 1, m.as_ref().err()?.to_string()))).collect(),
+        triangles: mesh.triangle_count(),
+        edges,
+        open_edges,
+        measured: measure(faces, mesh, DENSITY, SAMPLES),
+        over_tolerance: meshes().map(|m| m.quality.over_tolerance).sum(),
+        gap: meshes().map(|m| m.quality.gap).fold(0.0, f64::max),
+        prepare_s: 0.0,
+        tessellate_s: 0.0,
+    }
+}
+
+fn write(model: &ModelRecord, meshed: &ModelMesh, format: Format, path: &Path) -> Result<(), Failure> {
+    let names: Vec<String> = model
+        .faces
+        .iter()
+        .enumerate()
+        .map(|(k, f)| f.name.clone().unwrap_or_else(|| format!("face {}", k + 1)))
+        .collect();
+    let part = |face: &FaceRecord| face.part.and_then(|p| model.parts.get(p)).map_or("", |p| p.name.as_str());
+    let groups: Vec<Group> = model
+        .faces
+        .iter()
+        .zip(&meshed.faces)
+        .zip(&names)
+        .filter_map(|((face, mesh), name)| {
+            let mesh = mesh.as_ref().ok().filter(|m| !m.triangles.is_empty())?;
+            let colour = face.colour.unwrap_or(PLAIN);
+            Some(Group { name, part: part(face), colour, mesh, reversed: face.reversed })
+        })
+        .collect();
+    let bytes = match format {
+        Format::Glb => mesh::glb(&groups, &model.name, 1e-3 * model.unit.millimetres),
+        Format::Stl => mesh::stl(&groups, &model.name),
+        Format::Ply => mesh::ply(&groups),
+        Format::Obj => {
+            let library = path.with_extension("mtl");
+            output::write_whole(&library, &mesh::materials(&groups))?;
+            mesh::obj(&groups, library.file_name().map(|n| n.to_string_lossy()).as_deref())
+        }
+    };
+    output::write_whole(path, &bytes)
+}
+
+fn tell(statistics: &Statistics, as_json: bool) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    if as_json {
+        serde_json::to_writer_pretty(&mut out, statistics)?;
+        return writeln!(out);
+    }
+    let s = statistics;
+    let unit = &s.unit;
+    writeln!(out, "faces       {} meshed, {} left out", s.faces, s.left_out.len())?;
+    writeln!(out, "triangles   {} ({} edges, {} of them open)", s.triangles, s.edges, s.open_edges)?;
+    let kind = if s.conservative { "guaranteed" } else { "estimated" };
+    writeln!(out, "tolerance   {:.6} {unit}, {kind}", s.tolerance)?;
+    let m = &s.measured;
+    writeln!(
+        out,
+        "true error  {:.6} {unit} mesh to surface, {:.6} {unit} surface to mesh ({} samples)",
+        m.mesh_to_surface, m.surface_to_mesh, m.samples
+    )?;
+    if s.over_tolerance > 0 {
+        writeln!(
+            out,
+            "            {} triangles could not be proved to keep the tolerance",
+            s.over_tolerance
+        )?;
+    }
+    writeln!(out, "gaps        vertices moved by {:.3e} {unit} at most", s.gap)?;
+    writeln!(out, "time        {:.3} s preparing faces, {:.3} s tessellating", s.prepare_s, s.tessellate_s)
+}
