@@ -17,7 +17,7 @@ fi
 
 features=(--features editor)
 case "${1:-}" in
-render | info | classify | check | convert | tessellate | edit | bench | help | -h | --help | -V | --version)
+render | info | classify | check | mend | convert | tessellate | edit | bench | help | -h | --help | -V | --version)
     # No window: leave the editor out, which builds in a tenth of the time.
     features=(--no-default-features --features gpu)
     ;;
