@@ -63,6 +63,8 @@ fn fragment(corner: Corner) -> @location(0) vec4f {
   let distance = select(square, length(corner.offset), corner.shape.y > 0.5);
   let cover = clamp(corner.shape.x + 0.5 - distance, 0.0, 1.0);
   let inner = clamp(corner.shape.x - BORDER + 0.5 - distance, 0.0, 1.0);
-  let color = mix(corner.line, corner.fill, inner);
-  return vec4f(color.rgb, color.a * cover * view.opacity);
+  // A transparent inside has no colour to fade to.
+  let color = mix(corner.line.rgb, corner.fill.rgb, inner * corner.fill.a);
+  let alpha = mix(corner.line.a, corner.fill.a, inner);
+  return vec4f(color, alpha * cover * view.opacity);
 }

@@ -3,14 +3,17 @@
 use std::sync::Arc;
 
 use bevy::prelude::*;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::element::PointAddress;
 use super::selection::{ElementRequest, ElementSelection};
 use crate::editor::derive::Derived;
 use crate::editor::object::{DerivedFace, FacePlace, Records, Scene};
+use crate::editor::problems::FaceProblems;
 use crate::editor::selection::Selection;
 use crate::kernel::nurbs::{NurbsCurve2, NurbsSurface};
+use crate::kernel::trim::UvRect;
+use crate::kernel::trim::validity::LoopProblem;
 use crate::scene::FaceAttributes;
 use crate::scene::edit::FaceId;
 use crate::scene::records::{FaceRecord, LoopRecord};
@@ -32,11 +35,20 @@ pub struct FaceInHand {
     pub attributes: Arc<FaceAttributes>,
     /// The whole record.
     pub record: Arc<FaceRecord>,
+    /// What is wrong with its loops.
+    pub problems: Arc<[LoopProblem]>,
     /// What was derived from it; may be a little older.
     pub derived: Option<Arc<Derived>>,
 }
 
 impl FaceInHand {
+    /// The point of the surface at `uv`, or at the nearest parameters that it has.
+    pub fn point_in_space(&self, uv: DVec2) -> DVec3 {
+        let domain = UvRect::of_surface(&self.surface);
+        let uv = uv.clamp(domain.min, domain.max);
+        self.surface.point(uv.x, uv.y)
+    }
+
     /// A curve, if there is one at that position.
     pub fn curve(&self, trim_loop: usize, curve: usize) -> Option<&NurbsCurve2> {
         self.loops.get(trim_loop)?.curves.get(curve)
@@ -57,6 +69,8 @@ pub struct ActiveFace {
     pub revision: u64,
     /// Counts changes of what is derived.
     pub derived_revision: u64,
+    /// Counts changes of what is wrong with it.
+    pub problems_revision: u64,
 }
 
 impl ActiveFace {
@@ -91,10 +105,10 @@ pub(super) fn observe(
     mut selection: ResMut<ElementSelection>,
     scene: Res<Scene>,
     records: Records,
-    faces: Query<(&FacePlace, Option<&DerivedFace>)>,
+    faces: Query<(&FacePlace, Option<&DerivedFace>, Option<&FaceProblems>)>,
 ) {
     let found = selection.face.and_then(|entity| {
-        let (place, derived) = faces.get(entity).ok()?;
+        let (place, derived, problems) = faces.get(entity).ok()?;
         let parts = records.parts(entity)?;
         let same = |f: &FaceInHand| {
             f.entity == entity
@@ -112,6 +126,7 @@ pub(super) fn observe(
             surface: parts.surface,
             attributes: parts.attributes,
             loops: parts.loops,
+            problems: problems.map_or_else(|| Arc::from([]), |p| Arc::clone(&p.0)),
             derived: derived.map(|d| Arc::clone(&d.0)),
         })
     });
@@ -122,15 +137,18 @@ pub(super) fn observe(
     };
     let derived = |f: &Option<FaceInHand>| f.as_ref().and_then(|f| f.derived.as_ref()).map(Arc::as_ptr);
     let same_derived = derived(&found) == derived(&active.face);
-    if same_record && same_derived {
+    let problems = |f: &Option<FaceInHand>| f.as_ref().map(|f| Arc::clone(&f.problems)).unwrap_or_default();
+    let same_problems = problems(&found) == problems(&active.face);
+    if same_record && same_derived && same_problems {
         return;
     }
+    active.problems_revision += u64::from(!same_problems);
     if !same_record {
         active.revision += 1;
         if let Some(face) = &found {
             selection.prune(face);
         }
     }
-    active.derived_revision += 1;
+    active.derived_revision += u64::from(!same_derived || !same_record);
     active.face = found;
 }

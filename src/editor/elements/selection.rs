@@ -86,6 +86,13 @@ impl ElementSelection {
         all.into_iter().collect()
     }
 
+    /// Whether a curve or anything of it is selected, or its loop is.
+    pub fn touches(&self, trim_loop: usize, curve: usize) -> bool {
+        let first = Element::Point { trim_loop, curve, point: 0 };
+        let last = Element::Point { trim_loop, curve, point: usize::MAX };
+        self.covers(Element::Curve { trim_loop, curve }) || self.set.range(first..=last).next().is_some()
+    }
+
     /// Loops of which anything is selected, in order.
     pub fn loops(&self) -> Vec<usize> {
         let all: BTreeSet<usize> = self.set.iter().filter_map(|e| e.trim_loop()).collect();

@@ -53,7 +53,9 @@ impl<'a> Lens<'a> {
 
 /// The handle at a window position: points before curves.
 pub fn at(position: Vec2, shapes: &HandleShapes, lens: &Lens, selection: &ElementSelection) -> Option<Aimed> {
-    point_at(position, shapes, lens, selection).or_else(|| curve_at(position, shapes, lens))
+    let points = !shapes.passive;
+    let point = points.then(|| point_at(position, shapes, lens, selection)).flatten();
+    point.or_else(|| curve_at(position, shapes, lens))
 }
 
 fn point_at(
@@ -65,8 +67,7 @@ fn point_at(
     let total: usize = shapes.curves.iter().map(|c| c.points.len()).sum();
     let of_curves = shapes.curves.iter().flat_map(|curve| {
         let (trim_loop, number) = curve.address;
-        let of_loop = Element::Curve { trim_loop, curve: number };
-        let shown = total <= MOST_POINTS || selection.covers(of_loop);
+        let shown = total <= MOST_POINTS || selection.touches(trim_loop, number);
         let element = move |point| Element::Point { trim_loop, curve: number, point };
         curve.points.iter().enumerate().filter(move |_| shown).map(move |(p, at)| (element(p), *at))
     });

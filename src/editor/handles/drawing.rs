@@ -11,7 +11,7 @@ use super::input::{Grip, HandleHand};
 use super::shapes::{HandleShapes, MOST_POINTS};
 use crate::editor::elements::{ActiveFace, Element, ElementSelection};
 use crate::editor::theme::Palette;
-use crate::editor::uv::{Colors, UvGeometry, UvPanel};
+use crate::editor::uv::{Colors, UvGeometry, UvPanel, draw_problems};
 
 /// Width of trim curves, logical pixels.
 const CURVE_PX: f32 = 2.0;
@@ -73,6 +73,8 @@ struct Key {
     light: bool,
     linked: Option<DVec3>,
     axis: Option<(usize, DVec3)>,
+    problems: u64,
+    face: u64,
 }
 
 /// Makes the picture anew when something in it changed.
@@ -103,6 +105,8 @@ pub(super) fn draw(
         light: palette.light,
         linked,
         axis,
+        problems: active.problems_revision,
+        face: active.revision,
     };
     if drawing.key.as_ref() == Some(&key) {
         return;
@@ -111,6 +115,7 @@ pub(super) fn draw(
         Painter { picture: HandlePicture::default(), colors: Colors::of(&palette), selection: &selection };
     painter.curves(&shapes, &geometry);
     painter.net(&shapes);
+    painter.problems(&active, &palette);
     if let Some((axis, at)) = axis {
         painter.axis(&shapes, axis, at, &palette);
     }
@@ -146,7 +151,7 @@ impl Painter<'_> {
                     other => other == Some(element),
                 };
                 let marked = selected || hovered;
-                if marked != (pass == 1) {
+                if marked != (pass == 1) || (shapes.passive && !marked) {
                     continue;
                 }
                 let hole = geometry.holes.get(trim_loop).copied().unwrap_or_default();
@@ -156,20 +161,23 @@ impl Painter<'_> {
                     _ => self.colors.of_loop(hole),
                 };
                 self.line(&curve.line, color, if marked { MARKED_PX } else { CURVE_PX });
-                for leg in &curve.polygon {
+                for leg in curve.polygon.iter().filter(|_| !shapes.passive) {
                     self.line(leg, self.colors.polygon, 1.0);
                 }
             }
         }
         for curve in &shapes.curves {
             let (trim_loop, number) = curve.address;
-            let of_curve = Element::Curve { trim_loop, curve: number };
-            if total > MOST_POINTS && !self.selection.covers(of_curve) {
+            if total > MOST_POINTS && !self.selection.touches(trim_loop, number) {
                 continue;
             }
             let last = curve.points.len().saturating_sub(1);
             for (point, at) in curve.points.iter().enumerate() {
                 let element = Element::Point { trim_loop, curve: number, point };
+                let marked = self.selection.contains(element) || self.selection.hovered == Some(element);
+                if shapes.passive && !marked {
+                    continue;
+                }
                 self.mark(element, *at, point == 0 || point == last);
             }
         }
@@ -209,6 +217,22 @@ impl Painter<'_> {
         };
         let size_px = if hovered { POINT_PX + 3.0 } else { POINT_PX };
         self.picture.marks.push(HandleMark { at, fill, line, size_px, round });
+    }
+
+    /// Rings where something is wrong.
+    fn problems(&mut self, active: &ActiveFace, palette: &Palette) {
+        let Some(face) = &active.face else { return };
+        for problem in face.problems.iter().take(draw_problems::MOST) {
+            let (at, line) = (face.point_in_space(problem.uv), draw_problems::color(problem, palette));
+            let size_px = 2.0 * draw_problems::RING_PX;
+            self.picture.marks.push(HandleMark {
+                at,
+                fill: Color32::TRANSPARENT,
+                line,
+                size_px,
+                round: true,
+            });
+        }
     }
 
     /// The axis that a drag keeps to.

@@ -191,7 +191,7 @@ fn one(
                 release(hand, sink);
                 return false;
             }
-            if !pointer.in_viewport || !lens.viewport.contains(at) || hand.keys.alt {
+            if shapes.passive || !pointer.in_viewport || !lens.viewport.contains(at) || hand.keys.alt {
                 return false;
             }
             let Some(aimed) = aim::at(at, shapes, lens, selection) else { return false };

@@ -9,6 +9,7 @@ pub mod aim;
 pub mod drag;
 mod drawing;
 mod input;
+pub mod overlay;
 pub mod shapes;
 pub mod surface_map;
 pub mod trace;
@@ -24,7 +25,8 @@ use super::EditorSystems;
 use super::camera::ViewCamera;
 use super::editing::Editing;
 use super::elements::{ActiveFace, ObserveActiveFace};
-use super::settings::Settings;
+use super::settings::{Handles, Settings};
+use super::uv::UvPanel;
 use super::viewport::Viewport;
 
 /// Adds the handles.
@@ -54,11 +56,19 @@ fn trace_handles(
     camera: Res<ViewCamera>,
     viewport: Res<Viewport>,
     editing: Res<Editing>,
+    panel: Res<UvPanel>,
     mut hand: ResMut<HandleHand>,
 ) {
     if hand.is_dragging() && !editing.is_dragging() {
         hand.grip = Grip::None;
     }
     let shapes = shapes.bypass_change_detection();
-    shapes.update(settings.handles, active.face.as_ref(), &camera, &viewport);
+    // With the uv panel open, what is selected or under the pointer there is shown here, not to be dragged.
+    let passive = settings.handles == Handles::None && panel.open;
+    let kind = if passive { Handles::Curves } else { settings.handles };
+    if shapes.passive != passive {
+        shapes.passive = passive;
+        shapes.revision += 1;
+    }
+    shapes.update(kind, active.face.as_ref(), &camera, &viewport);
 }

@@ -43,6 +43,8 @@ pub struct SpaceCurve {
 pub struct HandleShapes {
     /// Which kind is shown.
     pub kind: Handles,
+    /// Whether they are only there to show what is selected or under the pointer in the uv panel.
+    pub passive: bool,
     /// The active face's surface.
     pub map: Option<Arc<SurfaceMap>>,
     /// Trim curves, loop by loop.
@@ -92,7 +94,7 @@ impl HandleShapes {
     ) {
         let Some(face) = face.filter(|_| kind != Handles::None) else {
             if self.made_of.is_some() || self.kind != kind {
-                *self = Self { revision: self.revision + 1, kind, ..Self::default() };
+                *self = Self { revision: self.revision + 1, kind, passive: self.passive, ..Self::default() };
             }
             return;
         };

@@ -40,6 +40,7 @@ use super::document::{Answer, DocumentFile, Questions, SaveRequest, Saving, docu
 use super::editing::{EditRequest, Editing, Prompt, RunEdit};
 use super::elements::ElementRequest;
 use super::files::{FileDialogs, Loading, OpenFiles, Picked};
+use super::handles;
 use super::object::{AuthoredFace, DerivedFace, FacePlace, Model, Part, Records, Scene, Shown};
 use super::picking::{LeftButton, Picker};
 use super::problems::ProblemList;
@@ -212,6 +213,7 @@ fn show(
     uv::show(&mut root, &mut uv);
     let rect = root.available_rect_before_wrap();
     set_viewport(&mut owned.viewport, rect, windows.single().map_or(1.0, Window::scale_factor), &mut writes);
+    handles::overlay::show(&root, rect, &reads.camera.now, &owned.viewport, uv.active(), &reads.palette);
     inspection::overlay(&root, rect, &reads, &owned.viewport, &inspection);
     view_cube::show(&root, rect, &reads, &mut writes);
     progress::show(&ctx, rect, &reads, &mut writes);

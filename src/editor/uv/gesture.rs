@@ -247,10 +247,12 @@ impl Hand<'_> {
     pub fn drag(&mut self, to: DVec2) {
         let Gesture::Drag(mut drag) = std::mem::take(&mut self.panel.gesture) else { return };
         let raw = drag.grip + (self.panel.view.to_uv(to) - drag.from);
-        let by = self.snap(raw, self.keys.shift.then_some(drag.grip), &drag.moving) - drag.grip;
+        let to = self.snap(raw, self.keys.shift.then_some(drag.grip), &drag.moving);
+        let by = to - drag.grip;
         if by != drag.by && by.is_finite() {
             drag.by = by;
-            self.ask(EditRequest::Preview(drag.what.operation(self.face.id, by)));
+            let met = self.panel.snapped.is_some().then_some(to);
+            self.ask(EditRequest::Preview(drag.what.operation_to(self.face.id, by, met)));
         }
         self.panel.gesture = Gesture::Drag(drag);
     }

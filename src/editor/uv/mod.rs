@@ -8,6 +8,7 @@ mod colors;
 mod draw_hand;
 mod draw_loops;
 mod draw_plane;
+pub mod draw_problems;
 pub mod draw_shape;
 mod draw_structure;
 mod fields;

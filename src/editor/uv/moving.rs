@@ -75,6 +75,16 @@ impl Moved {
         }
     }
 
+    /// The same when what was gripped meets something at `met`: a point by itself goes exactly there.
+    pub fn operation_to(&self, face: FaceId, by: DVec2, met: Option<DVec2>) -> Operation {
+        match (self, met) {
+            (Self::Points(points), Some(to)) if points.len() == 1 => {
+                Operation::SetPoint { face, point: points[0], to, beyond: true }
+            }
+            _ => self.operation(face, by),
+        }
+    }
+
     /// Their control points.
     pub fn points(&self, face: &FaceInHand) -> BTreeSet<PointAddress> {
         let of = |e: Element| e.points_of(&face.loops);

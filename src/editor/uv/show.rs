@@ -17,7 +17,7 @@ use super::gesture::Gesture;
 use super::hit::ShownPoints;
 use super::panel::{Overlay, UvPanel};
 use super::view::UvView;
-use super::{draw_hand, draw_loops, draw_plane, fields, fill, header, menu};
+use super::{draw_hand, draw_loops, draw_plane, draw_problems, fields, fill, header, menu};
 use crate::editor::editing::{Clipboard, EditRequest};
 use crate::editor::elements::{ActiveFace, Element, ElementRequest, ElementSelection, FaceInHand};
 use crate::editor::picking::Picker;
@@ -92,6 +92,11 @@ pub struct UvDrawing {
 }
 
 impl UvParams<'_> {
+    /// The active face.
+    pub fn active(&self) -> &ActiveFace {
+        &self.active
+    }
+
     /// Asks for a change of the face.
     pub(super) fn edit(&mut self, request: EditRequest) {
         self.out.edits.push(request);
@@ -182,6 +187,7 @@ fn show_canvas(ui: &mut Ui, rect: Rect, params: &mut UvParams) {
     if let Some(hit) = in_space.filter(|_| panel.pointer.is_none() && params.picker.wanted.is_some()) {
         draw_hand::crosshair(&painter, panel, hit.uv, colors.snap);
     }
+    draw_problems::draw(&painter, &panel.view, &face.problems, &params.palette, &colors);
     draw_hand::draw(&painter, panel, &colors);
     draw_plane::rulers(&painter, &panel.view, panel.pointer, &colors, params.palette.accent);
     captions(&painter, rect, params, &colors);
