@@ -6,8 +6,8 @@ use bevy_egui::{EguiContexts, egui};
 use egui_file_dialog::DialogState;
 
 use super::Picker;
-use crate::editor::uv::UvPanel;
 use crate::editor::files::FileDialogs;
+use crate::editor::uv::UvPanel;
 use crate::editor::viewport::{Pointer, Viewport};
 
 /// Decides anew while no button is down; a drag stays where it began.
