@@ -134,7 +134,7 @@ impl FromStr for Angle {
         };
         let radians = number.trim().parse::<f64>().map(|x| x * factor);
         match radians {
-            Ok(x) if x.is_finite() && x >= 1e-4 && x <= std::f64::consts::PI => Ok(Self(x)),
+            Ok(x) if (1e-4..=std::f64::consts::PI).contains(&x) => Ok(Self(x)),
             _ => Err("expected an angle above 0 and up to 180 degrees, such as 15deg".into()),
         }
     }

@@ -117,13 +117,11 @@ impl Region {
                 delaunay.add_constraint_and_split(a, b, |p| Site { place: p, number: Site::CROSSING });
             }
         }
-        let mut number = places.len() as u32;
         let made: Vec<FixedVertexHandle> =
             delaunay.vertices().filter(|v| v.data().number == Site::CROSSING).map(|v| v.fix()).collect();
-        for handle in made {
+        for (number, handle) in (places.len() as u32..).zip(made) {
             crossings.places.push(place(delaunay.vertex(handle).position()));
             delaunay.vertex_data_mut(handle).number = number;
-            number += 1;
         }
         let mut region = Self { delaunay };
         if crossings.places.is_empty() {
