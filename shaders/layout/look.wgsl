@@ -15,7 +15,7 @@ struct Look {
     samples: f32,         // samples in the accumulated picture
     edge_width: f32,      // pixels
     pixel: vec2f,         // as in View
-    pad0: u32,
+    difference: u32,      // 1: grey, what fat lines changed in a colour
     pad1: u32,
 }
 

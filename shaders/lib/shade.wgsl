@@ -50,6 +50,12 @@ fn heat_colour(word: u32) -> vec3f {
     return select(some * (1.0 / (0.75 + 0.25 * f32(count))), none, count == 0u);
 }
 
+// What fat lines filled stands out of a pale grey picture.
+fn difference_colour(colour: vec3f, filled: bool) -> vec3f {
+    let grey = 0.25 + 0.6 * dot(colour, vec3f(0.2126, 0.7152, 0.0722));
+    return select(vec3f(grey), vec3f(0.85, 0.01, 0.16), filled);
+}
+
 fn srgb_from_linear(c: vec3f) -> vec3f {
     let low = 12.92 * c;
     let high = 1.055 * pow(max(c, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;

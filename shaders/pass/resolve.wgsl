@@ -4,6 +4,7 @@
 @group(0) @binding(1) var visibility: texture_2d<u32>;
 @group(0) @binding(2) var depths: texture_depth_2d;
 @group(0) @binding(3) var<storage, read> faces: array<FaceHeader>;
+@group(0) @binding(4) var raw: texture_2d<u32>;   // before fat lines; else the same
 
 // Wider lines are cut to this.
 const MOST_EDGE_PIXELS: i32 = 4;
@@ -108,6 +109,9 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     var colour = lit(base, n, eye);
     if (look.edges != 0u) {
         colour = mix(colour, look.edge.rgb, look.edge.a * edge_cover(here, z, p, n, pixel));
+    }
+    if (look.difference != 0u) {
+        colour = difference_colour(colour, any(textureLoad(raw, pixel, 0) != here));
     }
     return vec4f(colour, 1.0);
 }

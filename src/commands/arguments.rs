@@ -148,6 +148,8 @@ Examples:
   hairline render part.igs -o top.png --size 1920x1080 --view top --mode faces --samples 16
   hairline render part.igs -o hole.png --view fit:17 --mode uv --backend cpu
   hairline render demo -o demo.png
+  hairline render big.igs -o quick.png --renderer mesh
+  hairline render part.igs -o holes.png --view fit:17 --conceal difference
 
 The picture is written whole or not at all. Without --backend the graphics driver (Vulkan) draws
 if there is one, else the processor does; both give the same picture.")]
@@ -174,6 +176,13 @@ pub struct RenderArguments {
     /// Who draws; without it the graphics driver if there is one, else the processor.
     #[arg(long, value_enum)]
     pub backend: Option<Backend>,
+    /// How surfaces are drawn: rays at the exact surfaces, or triangles wrong by at most half a pixel.
+    #[arg(long, value_enum, default_value_t = Surfaces::Cast)]
+    pub renderer: Surfaces,
+    /// Pin holes between faces that share an edge: left as they are, filled by fat lines as wide as the measured gaps,
+    /// or shown by what fat lines would fill.
+    #[arg(long, value_enum, default_value_t = Holes::Raw)]
+    pub conceal: Holes,
 }
 
 /// `hairline info`.
@@ -396,6 +405,26 @@ pub enum Mode {
     Heat,
     /// Lit surfaces with their trims ignored.
     Untrimmed,
+}
+
+/// What is done about pin holes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Holes {
+    /// The picture is what the model is.
+    Raw,
+    /// Fat lines fill them.
+    Concealed,
+    /// What fat lines fill, in red on grey.
+    Difference,
+}
+
+/// How surfaces become pixels; trims are exact either way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Surfaces {
+    /// A ray per pixel, cast at the exact surface.
+    Cast,
+    /// Triangles of the untrimmed surface, trimmed per pixel: quick on weak machines.
+    Mesh,
 }
 
 /// Who draws.

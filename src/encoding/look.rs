@@ -25,7 +25,7 @@ pub struct Look {
     pub samples: f32,
     pub edge_width: f32,
     pub pixel: [f32; 2],
-    pub pad0: u32,
+    pub difference: u32,
     pub pad1: u32,
 }
 
@@ -58,7 +58,7 @@ impl Look {
             samples: 1.0,
             edge_width: edges.width_px,
             pixel: view.pixel,
-            pad0: 0,
+            difference: 0,
             pad1: 0,
         }
     }

@@ -5,17 +5,20 @@
 //! whole are marked, so that no curve is looked at there. Positions are relative to an origin of the face,
 //! rounded like those of cells.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
+use rayon::prelude::*;
 
 use super::arena::Arena;
 use super::cell::split_high_low;
 use super::coverage::{Coverage, coverage};
-use super::scene::FaceSlot;
-use crate::kernel::trim::ParityGrid;
+use super::level::{LevelView, level_error};
+use super::scene::{FaceSlot, PackedScene};
+use crate::kernel::face::Face;
+use crate::kernel::tessellate::{TessellationOptions, UntrimmedMesh, untrimmed};
 use crate::kernel::view::Bounds;
 
 /// Mirror of `MeshVertex` in `shaders/layout/mesh.wgsl`, where the fields are described.
@@ -48,31 +51,25 @@ pub struct MeshOrigin {
     pub pad1: u32,
 }
 
-/// A corner of an untrimmed triangle mesh.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeshCorner {
-    /// Point of the surface, model units.
-    pub point: DVec3,
-    /// `du x dv`, unit; zero at poles.
-    pub normal: DVec3,
-    /// Face-normalised parameters.
-    pub uv: DVec2,
-}
-
-/// Triangles of one face whose surface is at most a level's error away from them.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct MeshShape {
-    /// Corners.
-    pub corners: Vec<MeshCorner>,
-    /// Positions of three corners each, counter-clockwise in (u, v).
-    pub triangles: Vec<[u32; 3]>,
-}
-
 #[derive(Debug, Clone)]
 struct Part {
     vertices: Range<u32>,
     /// Positions in the scene's vertex array.
     indices: Vec<u32>,
+}
+
+/// A face takes no more triangles than this; where it would, it is better cast.
+const FACE_TRIANGLES: usize = 60_000;
+
+/// The triangles of `face` at a level: within its error as far as P2's estimate at points of the surface tells.
+/// `None` where it takes too many, or cannot be tessellated.
+pub fn build(face: &Face, level: i32) -> Option<UntrimmedMesh> {
+    let options = TessellationOptions {
+        conservative: false,
+        triangle_limit: FACE_TRIANGLES,
+        ..TessellationOptions::new(level_error(level))
+    };
+    untrimmed(face, &options).ok()
 }
 
 /// The triangles of all faces of a packed scene, by the same slots.
@@ -81,6 +78,8 @@ pub struct MeshScene {
     pub(crate) vertices: Arena<MeshVertex>,
     pub(crate) origins: Arena<MeshOrigin>,
     parts: BTreeMap<(FaceSlot, i32), Part>,
+    /// Levels that a face takes too many triangles for.
+    refused: BTreeSet<(FaceSlot, i32)>,
     selected: Vec<(FaceSlot, i32)>,
     indices: Vec<u32>,
     revision: u64,
@@ -92,12 +91,56 @@ impl MeshScene {
         self.parts.contains_key(&(slot, level))
     }
 
-    /// Packs a face's triangles at a level, in place of what was there at that level. `grid`: its trims.
-    pub fn insert(&mut self, slot: FaceSlot, level: i32, shape: &MeshShape, grid: Option<&ParityGrid>) {
+    /// Makes and selects what a view needs: for each visible face in sight the level at which it is wrong by at most
+    /// `error_px` pixels. Returns the faces that are to be cast instead.
+    pub fn prepare<'a>(
+        &mut self,
+        scene: &PackedScene,
+        faces: impl Fn(FaceSlot) -> Option<&'a Face>,
+        view: &LevelView,
+        error_px: f64,
+    ) -> Vec<FaceSlot> {
+        let wanted: Vec<_> = wanted(scene, view, error_px).collect();
+        let missing: Vec<_> = wanted
+            .iter()
+            .filter(|(slot, level)| !self.knows(*slot, *level))
+            .filter_map(|(slot, level)| Some((*slot, *level, faces(*slot)?)))
+            .collect();
+        let built: Vec<_> = missing
+            .into_par_iter()
+            .map(|(slot, level, face)| (slot, level, face, build(face, level)))
+            .collect();
+        for (slot, level, face, mesh) in built {
+            self.take(slot, level, face, mesh.as_ref());
+        }
+        self.select(wanted)
+    }
+
+    /// Takes what [`build`] made, or notes that it made nothing.
+    pub fn take(&mut self, slot: FaceSlot, level: i32, face: &Face, mesh: Option<&UntrimmedMesh>) {
+        match mesh {
+            Some(mesh) => self.insert(slot, level, mesh, face),
+            None => {
+                self.refused.insert((slot, level));
+            }
+        }
+    }
+
+    /// Whether a face's triangles at this level are there or known to be too many.
+    pub fn knows(&self, slot: FaceSlot, level: i32) -> bool {
+        self.has(slot, level) || self.is_refused(slot, level)
+    }
+
+    fn is_refused(&self, slot: FaceSlot, level: i32) -> bool {
+        self.refused.range((slot, level)..=(slot, i32::MAX)).next().is_some()
+    }
+
+    /// Packs a face's triangles at a level, in place of what was there at that level.
+    pub fn insert(&mut self, slot: FaceSlot, level: i32, mesh: &UntrimmedMesh, face: &Face) {
         self.drop_part((slot, level));
-        let kept = kept_triangles(shape, grid);
-        let origin = self.origin_of(slot, &kept, shape);
-        let (vertices, indices) = compact(slot, shape, &kept, origin);
+        let kept = kept_triangles(mesh, face);
+        let origin = self.origin_of(slot, &kept, mesh);
+        let (vertices, indices) = compact(slot, mesh, face, &kept, origin);
         let vertices = self.vertices.insert(&vertices);
         let indices = indices.into_iter().map(|i| vertices.start + i).collect();
         self.parts.insert((slot, level), Part { vertices, indices });
@@ -108,6 +151,7 @@ impl MeshScene {
     pub fn forget(&mut self, slot: FaceSlot) {
         let levels: Vec<i32> = self.levels(slot).collect();
         levels.into_iter().for_each(|level| self.drop_part((slot, level)));
+        self.refused.retain(|(s, _)| *s != slot);
         if self.origins.data().get(slot.0 as usize).is_some() {
             self.origins.set(slot.0, MeshOrigin::zeroed());
         }
@@ -124,15 +168,15 @@ impl MeshScene {
     }
 
     /// Chooses what is drawn: for each face the level wanted, or the next finer, or the finest there is. Returns
-    /// the faces of which there is nothing.
+    /// the faces of which there is nothing or that take too many triangles.
     pub fn select(&mut self, wanted: impl IntoIterator<Item = (FaceSlot, i32)>) -> Vec<FaceSlot> {
         let (mut chosen, mut lacking) = (Vec::new(), Vec::new());
         for (slot, level) in wanted {
             let finer = self.parts.range((slot, i32::MIN)..=(slot, level)).next_back();
             let any = finer.or_else(|| self.parts.range((slot, level)..=(slot, i32::MAX)).next());
             match any {
-                Some((key, _)) => chosen.push(*key),
-                None => lacking.push(slot),
+                Some((key, _)) if !self.is_refused(slot, level) => chosen.push(*key),
+                _ => lacking.push(slot),
             }
         }
         chosen.sort_unstable();
@@ -188,13 +232,13 @@ impl MeshScene {
     }
 
     /// The face's origin: the middle of its first triangles, kept for all levels.
-    fn origin_of(&mut self, slot: FaceSlot, kept: &[(usize, bool)], shape: &MeshShape) -> DVec3 {
+    fn origin_of(&mut self, slot: FaceSlot, kept: &[(usize, bool)], mesh: &UntrimmedMesh) -> DVec3 {
         while self.origins.data().len() <= slot.0 as usize {
             self.origins.insert(&[MeshOrigin::zeroed()]);
         }
         if self.levels(slot).next().is_none() {
-            let corners = kept.iter().flat_map(|(k, _)| shape.triangles[*k]);
-            let centre = Bounds::of(corners.map(|c| shape.corners[c as usize].point)).centre();
+            let corners = kept.iter().flat_map(|(k, _)| mesh.triangles[*k]);
+            let centre = Bounds::of(corners.map(|c| mesh.positions[c as usize])).centre();
             let (high, low) = split_high_low(centre);
             self.origins.set(slot.0, MeshOrigin { high, pad0: 0, low, pad1: 0 });
         }
@@ -203,41 +247,52 @@ impl MeshScene {
     }
 }
 
+/// Visible faces in sight with the level at which they are wrong by at most `error_px` pixels.
+pub fn wanted<'a>(
+    scene: &'a PackedScene,
+    view: &'a LevelView,
+    error_px: f64,
+) -> impl Iterator<Item = (FaceSlot, i32)> + 'a {
+    let shown = scene.slots().filter(|slot| !scene.cells_of(*slot).is_empty());
+    shown.filter_map(move |slot| Some((slot, view.level(&scene.face_bounds(slot)?, error_px)?)))
+}
+
 /// Triangles that show anything, by position, and whether they are kept whole.
-fn kept_triangles(shape: &MeshShape, grid: Option<&ParityGrid>) -> Vec<(usize, bool)> {
+fn kept_triangles(mesh: &UntrimmedMesh, face: &Face) -> Vec<(usize, bool)> {
     let covered = |(k, triangle): (usize, &[u32; 3])| {
-        let uv = triangle.map(|c| shape.corners[c as usize].uv);
+        let uv = triangle.map(|c| face.domain.normalise(mesh.uvs[c as usize]));
         let (min, max) = (uv[0].min(uv[1]).min(uv[2]), uv[0].max(uv[1]).max(uv[2]));
-        match grid.map_or(Coverage::Whole, |grid| coverage(grid, min, max)) {
+        match coverage(&face.grid, min, max) {
             Coverage::Empty => None,
             found => Some((k, found == Coverage::Whole)),
         }
     };
-    shape.triangles.iter().enumerate().filter_map(covered).collect()
+    mesh.triangles.iter().enumerate().filter_map(covered).collect()
 }
 
 /// The vertices that are used, once for whole triangles and once for others, and the indices into them.
 fn compact(
     slot: FaceSlot,
-    shape: &MeshShape,
+    mesh: &UntrimmedMesh,
+    face: &Face,
     kept: &[(usize, bool)],
     origin: DVec3,
 ) -> (Vec<MeshVertex>, Vec<u32>) {
     const UNUSED: u32 = u32::MAX;
-    let mut numbers = [vec![UNUSED; shape.corners.len()], vec![UNUSED; shape.corners.len()]];
+    let mut numbers = [vec![UNUSED; mesh.uvs.len()], vec![UNUSED; mesh.uvs.len()]];
     let (mut vertices, mut indices) = (Vec::new(), Vec::with_capacity(3 * kept.len()));
     for (k, whole) in kept {
-        for c in shape.triangles[*k] {
+        for c in mesh.triangles[*k] {
             let number = &mut numbers[usize::from(*whole)][c as usize];
+            let c = c as usize;
             if *number == UNUSED {
                 *number = vertices.len() as u32;
-                let corner = &shape.corners[c as usize];
                 vertices.push(MeshVertex {
-                    position: (corner.point - origin).as_vec3().to_array(),
+                    position: (mesh.positions[c] - origin).as_vec3().to_array(),
                     face: slot.0,
-                    normal: corner.normal.as_vec3().to_array(),
+                    normal: mesh.normals[c].as_vec3().to_array(),
                     flags: if *whole { MeshVertex::WHOLE } else { 0 },
-                    uv: corner.uv.as_vec2().to_array(),
+                    uv: face.domain.normalise(mesh.uvs[c]).as_vec2().to_array(),
                     pad0: 0,
                     pad1: 0,
                 });

@@ -3,20 +3,25 @@
 pub mod arena;
 pub mod cell;
 pub mod coverage;
+pub mod extras;
 pub mod face;
 pub mod level;
 pub mod look;
 pub mod mesh;
 pub mod options;
 pub mod order;
+pub mod ribbon;
 pub mod scene;
 pub mod subdivision;
 pub mod tiling;
 pub mod view;
 
+pub use extras::{Extras, MeshChoice, RibbonChoice};
 pub use face::FaceHeader;
+pub use level::LevelView;
 pub use look::Look;
-pub use mesh::{MeshOrigin, MeshScene, MeshShape, MeshVertex};
-pub use options::{DisplayMode, EdgeStyle, Image, RenderOptions, Theme};
+pub use mesh::{MeshOrigin, MeshScene, MeshVertex};
+pub use options::{Conceal, DisplayMode, EdgeStyle, Image, RenderOptions, Theme};
+pub use ribbon::{EdgeLook, RibbonPiece, RibbonScene, RibbonShape, RibbonSpan};
 pub use scene::{FaceShape, FaceSlot, PackedScene};
 pub use view::{DepthRange, View};

@@ -20,6 +20,18 @@ pub enum DisplayMode {
     Untrimmed,
 }
 
+/// What is done about pin holes between faces that share an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Conceal {
+    /// Nothing: the picture is what the model is.
+    #[default]
+    Raw,
+    /// They are filled by fat lines along the edges.
+    Concealed,
+    /// The picture in grey, what fat lines fill in a colour.
+    Difference,
+}
+
 /// Background colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Theme {

@@ -12,12 +12,13 @@ mod mesh;
 pub mod picture;
 pub mod pipelines;
 pub mod renderer;
+mod ribbons;
 pub mod shaders;
 pub mod targets;
 
 pub use buffers::Uploaded;
 pub use context::Context;
-pub use picture::render_image;
+pub use picture::{render_image, render_image_with};
 pub use renderer::{Renderer, Sample};
 
 /// Why the GPU cannot draw.

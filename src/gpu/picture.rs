@@ -3,7 +3,9 @@
 use super::renderer::{Presentation, Renderer, Sample, bounding_sphere};
 use super::{Context, GpuError};
 use crate::encoding::options::jitter;
-use crate::encoding::{DepthRange, DisplayMode, Image, PackedScene, RenderOptions};
+use crate::encoding::{
+    Conceal, DepthRange, DisplayMode, Extras, Image, MeshChoice, PackedScene, RenderOptions,
+};
 use crate::reference::cast::Fragment;
 use crate::reference::visibility::VisibilityBuffer;
 
@@ -16,6 +18,19 @@ pub fn render_image(
     scene: &mut PackedScene,
     options: &RenderOptions,
 ) -> Result<Image, GpuError> {
+    render_image_with(context, scene, options, &mut Extras::default())
+}
+
+/// The same with what `extras` hold.
+///
+/// # Errors
+/// As [`render_image`].
+pub fn render_image_with(
+    context: &Context,
+    scene: &mut PackedScene,
+    options: &RenderOptions,
+    extras: &mut Extras,
+) -> Result<Image, GpuError> {
     let Context { device, queue, .. } = context;
     let [width, height] = options.size;
     let limit = device.limits().max_texture_dimension_2d;
@@ -26,6 +41,12 @@ pub fn render_image(
     let mut renderer = Renderer::new(device, format);
     scene.touch_all();
     renderer.upload(device, queue, scene)?;
+    if let Some(MeshChoice { scene: meshes, lacking }) = &mut extras.meshes {
+        renderer.upload_meshes(device, queue, meshes, scene, lacking)?;
+    }
+    if let Some(choice) = &mut extras.ribbons {
+        renderer.upload_ribbons(device, queue, &mut choice.scene)?;
+    }
     let target = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("picture"),
         size: wgpu::Extent3d { width: width.max(1), height: height.max(1), depth_or_array_layers: 1 },
@@ -46,7 +67,15 @@ pub fn render_image(
             jitter: jitter(k),
             mode: options.mode,
         };
-        renderer.cast(device, queue, &mut encoder, &sample);
+        if extras.meshes.is_some() {
+            renderer.draw_meshes(device, queue, &mut encoder, &sample);
+        } else {
+            renderer.cast(device, queue, &mut encoder, &sample);
+        }
+        if let Some(choice) = extras.ribbons.as_ref().filter(|r| r.conceal != Conceal::Raw) {
+            let difference = choice.conceal == Conceal::Difference;
+            renderer.conceal(device, queue, &mut encoder, &choice.spans, difference);
+        }
         renderer.shade(device, queue, &mut encoder, options.mode, options.edges, k == 0);
         queue.submit([encoder.finish()]);
         // One sample at a time keeps software drivers from hoarding work.
@@ -74,8 +103,16 @@ pub fn visibility(
     renderer.cast(&context.device, &context.queue, &mut encoder, sample);
     context.queue.submit([encoder.finish()]);
     context.wait()?;
-    let words = read_texture(context, &renderer.targets().visibility)?;
-    let depths = read_texture(context, &renderer.targets().depth)?;
+    read_visibility(context, renderer)
+}
+
+/// Reads the visibility buffer that is shown back: of the last complete cast, with holes filled if they were.
+///
+/// # Errors
+/// The device is lost.
+pub fn read_visibility(context: &Context, renderer: &Renderer) -> Result<VisibilityBuffer, GpuError> {
+    let words = read_texture(context, &renderer.shown().visibility)?;
+    let depths = read_texture(context, &renderer.shown().depth)?;
     let pixels = words.chunks_exact(16).zip(depths.chunks_exact(4));
     let fragments = pixels.map(|(words, depth)| Fragment {
         words: bytemuck::pod_read_unaligned(words),

@@ -62,7 +62,8 @@ struct Recipe<'a> {
     bindings: &'a [wgpu::BindingType],
     target: wgpu::ColorTargetState,
     depth: Option<wgpu::CompareFunction>,
-    strip: bool,
+    /// Triangle strips, and which of their sides are left out.
+    strip: Option<Option<wgpu::Face>>,
 }
 
 impl Pipelines {
@@ -100,7 +101,7 @@ impl Pipelines {
             bindings: &present_bindings,
             target,
             depth,
-            strip: false,
+            strip: None,
         };
         Self {
             cast: build(
@@ -112,7 +113,7 @@ impl Pipelines {
                     bindings: &cast_bindings,
                     target: unblended(VISIBILITY_FORMAT),
                     depth: Some(wgpu::CompareFunction::Greater),
-                    strip: true,
+                    strip: Some(Some(wgpu::Face::Front)),
                 },
             ),
             resolve: build(
@@ -126,13 +127,14 @@ impl Pipelines {
                         texture(wgpu::TextureSampleType::Uint),
                         texture(wgpu::TextureSampleType::Depth),
                         STORAGE,
+                        texture(wgpu::TextureSampleType::Uint),
                     ],
                     target: wgpu::ColorTargetState {
                         blend: Some(wgpu::BlendState { color: add, alpha: add }),
                         ..unblended(SUM_FORMAT)
                     },
                     depth: None,
-                    strip: false,
+                    strip: None,
                 },
             ),
             present: build(
@@ -142,6 +144,51 @@ impl Pipelines {
             present_flat: build(device, &present(flat_fragment, unblended(format), None)),
         }
     }
+}
+
+/// The pipeline that fills holes in a copy of the visibility buffer.
+pub(super) fn conceal(device: &wgpu::Device) -> Pass {
+    let mut bindings = vec![uniform(size_of::<View>())];
+    bindings.extend([STORAGE; 5]);
+    bindings.extend([texture(wgpu::TextureSampleType::Uint), texture(wgpu::TextureSampleType::Depth)]);
+    build(
+        device,
+        &Recipe {
+            label: "conceal",
+            source: shaders::CONCEAL,
+            fragment: "fragment",
+            bindings: &bindings,
+            target: wgpu::ColorTargetState {
+                format: VISIBILITY_FORMAT,
+                blend: None,
+                write_mask: wgpu::ColorWrites::ALL,
+            },
+            depth: Some(wgpu::CompareFunction::Greater),
+            strip: Some(None),
+        },
+    )
+}
+
+/// The pipeline that draws edges in colours over a picture of `format`, hidden by its depth.
+pub(super) fn edges(device: &wgpu::Device, format: wgpu::TextureFormat) -> Pass {
+    let mut bindings = vec![uniform(size_of::<View>())];
+    bindings.extend([STORAGE; 6]);
+    build(
+        device,
+        &Recipe {
+            label: "edges",
+            source: shaders::EDGES,
+            fragment: if format.is_srgb() { "fragment_linear" } else { "fragment" },
+            bindings: &bindings,
+            target: wgpu::ColorTargetState {
+                format,
+                blend: Some(wgpu::BlendState::ALPHA_BLENDING),
+                write_mask: wgpu::ColorWrites::ALL,
+            },
+            depth: Some(wgpu::CompareFunction::GreaterEqual),
+            strip: Some(None),
+        },
+    )
 }
 
 /// The pipeline that draws triangles into the visibility buffer; both sides of a surface are seen.
@@ -159,7 +206,7 @@ pub(super) fn mesh(device: &wgpu::Device) -> Pass {
                 write_mask: wgpu::ColorWrites::ALL,
             },
             depth: Some(wgpu::CompareFunction::Greater),
-            strip: false,
+            strip: None,
         },
     )
 }
@@ -193,14 +240,13 @@ fn build(device: &wgpu::Device, recipe: &Recipe) -> Pass {
         bind_group_layouts: &[Some(&layout)],
         immediate_size: 0,
     });
-    let primitive = if recipe.strip {
-        wgpu::PrimitiveState {
+    let primitive = match recipe.strip {
+        Some(cull_mode) => wgpu::PrimitiveState {
             topology: wgpu::PrimitiveTopology::TriangleStrip,
-            cull_mode: Some(wgpu::Face::Front),
+            cull_mode,
             ..Default::default()
-        }
-    } else {
-        wgpu::PrimitiveState::default()
+        },
+        None => wgpu::PrimitiveState::default(),
     };
     let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(recipe.label),
@@ -214,7 +260,7 @@ fn build(device: &wgpu::Device, recipe: &Recipe) -> Pass {
         primitive,
         depth_stencil: recipe.depth.map(|compare| wgpu::DepthStencilState {
             format: DEPTH_FORMAT,
-            depth_write_enabled: Some(true),
+            depth_write_enabled: Some(recipe.label != "edges"),
             depth_compare: Some(compare),
             stencil: Default::default(),
             bias: Default::default(),

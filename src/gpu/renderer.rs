@@ -8,10 +8,14 @@ use super::GpuError;
 use super::buffers::{SceneBuffers, Uploaded};
 use super::mesh::MeshPass;
 use super::pipelines::Pipelines;
+use super::ribbons::RibbonPass;
 use super::targets::{Sum, Targets, within};
 use crate::encoding::options::cast_flags;
 use crate::encoding::view::DepthRange;
-use crate::encoding::{DisplayMode, EdgeStyle, FaceSlot, Look, MeshScene, PackedScene, Theme, View};
+use crate::encoding::{
+    DisplayMode, EdgeLook, EdgeStyle, FaceSlot, Look, MeshScene, PackedScene, RibbonScene, RibbonSpan, Theme,
+    View,
+};
 use crate::kernel::view::Camera;
 
 /// One sample of a picture.
@@ -56,6 +60,12 @@ pub struct Renderer {
     samples: u32,
     /// Made when triangles are first drawn.
     mesh: Option<MeshPass>,
+    /// Made when fat lines or edges are first drawn.
+    ribbons: Option<RibbonPass>,
+    /// Whether the picture shown has its holes filled, and whether what was filled stands out.
+    concealed: bool,
+    difference: bool,
+    format: wgpu::TextureFormat,
 }
 
 impl Renderer {
@@ -89,6 +99,10 @@ impl Renderer {
             present_group: None,
             samples: 0,
             mesh: None,
+            ribbons: None,
+            concealed: false,
+            difference: false,
+            format,
         }
     }
 
@@ -134,6 +148,102 @@ impl Renderer {
         mesh.update(device, queue, meshes, scene, lacking)
     }
 
+    /// Sends packed curves for [`Self::conceal`] and [`Self::draw_edges`].
+    ///
+    /// # Errors
+    /// An array is larger than the device can bind.
+    pub fn upload_ribbons(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        ribbons: &mut RibbonScene,
+    ) -> Result<u64, GpuError> {
+        let format = self.format;
+        let pass = self.ribbons.get_or_insert_with(|| {
+            ribbons.touch_all();
+            RibbonPass::new(device, format)
+        });
+        pass.update(device, queue, ribbons)
+    }
+
+    /// Sends how edges look, by their numbers; call after [`Self::upload_ribbons`].
+    ///
+    /// # Errors
+    /// There are more than the device can bind.
+    pub fn set_edge_looks(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        looks: &[EdgeLook],
+    ) -> Result<(), GpuError> {
+        self.ribbons.as_mut().map_or(Ok(()), |pass| pass.set_looks(device, queue, looks))
+    }
+
+    /// Fills holes between faces along `spans` in a copy of the last complete cast, which is then what
+    /// [`Self::shade`] and [`Self::present`] see, until the next cast. `difference`: shading is to tell what was filled.
+    pub fn conceal(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        spans: &[RibbonSpan],
+        difference: bool,
+    ) {
+        let view = self.view;
+        let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
+        let uniform = view_binding(&self.uniforms);
+        let Some(pass) = &mut self.ribbons else { return };
+        pass.fill(device, queue, encoder, (uniform, slot), &self.buffers, &self.targets, spans);
+        self.concealed = true;
+        self.difference = difference;
+        self.resolve_group = None;
+        self.present_group = None;
+    }
+
+    /// Shows the picture as the rays left it.
+    pub fn reveal(&mut self) {
+        if self.concealed {
+            self.concealed = false;
+            self.difference = false;
+            self.resolve_group = None;
+            self.present_group = None;
+        }
+    }
+
+    /// The textures that are shown.
+    pub fn shown(&self) -> &Targets {
+        let filled = self.ribbons.as_ref().and_then(|pass| pass.targets.as_ref());
+        filled.filter(|_| self.concealed).unwrap_or(&self.targets)
+    }
+
+    /// Draws edges along `spans` in the looks set, over `target`, hidden behind what is nearer in `depth`.
+    pub fn draw_edges(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        (target, depth): (&wgpu::TextureView, &wgpu::TextureView),
+        sample: &Sample,
+        spans: &[RibbonSpan],
+        viewport: Option<[u32; 4]>,
+    ) {
+        let view =
+            View::new(&sample.camera, sample.size, sample.jitter, sample.depth, cast_flags(sample.mode));
+        let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
+        let uniform = view_binding(&self.uniforms);
+        let Some(ribbons) = &mut self.ribbons else { return };
+        let attachment = wgpu::RenderPassDepthStencilAttachment {
+            view: depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        };
+        let mut pass = full_screen(encoder, "edges", target, wgpu::LoadOp::Load, Some(attachment));
+        if let Some([x, y, width, height]) = viewport {
+            pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+        }
+        ribbons.draw_edges(device, queue, (uniform, slot), &self.buffers, spans, &mut pass);
+    }
+
     /// Draws one sample from triangles, trimmed per pixel, in place of [`Self::cast`].
     pub fn draw_meshes(
         &mut self,
@@ -153,11 +263,8 @@ impl Renderer {
         self.next = None;
         self.view = view;
         self.fit_nearest(device, size);
-        let uniform = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: &self.uniforms,
-            offset: 0,
-            size: wgpu::BufferSize::new(size_of::<View>() as u64),
-        });
+        self.reveal();
+        let uniform = view_binding(&self.uniforms);
         let cast = &self.pipelines.cast;
         let Some(mesh) = &mut self.mesh else { return };
         mesh.prepare(device, uniform, &self.buffers, &self.nearest, cast);
@@ -206,6 +313,9 @@ impl Renderer {
         self.fit_nearest(device, size);
         if self.cast_group.is_none() {
             self.cast_group = Some(self.make_cast_group(device));
+        }
+        if rows.end == size[1] {
+            self.reveal();
         }
         if whole && self.targets.size == size {
             // In place: a picture in one go needs no second set of textures.
@@ -257,7 +367,8 @@ impl Renderer {
             self.present_group = None;
         }
         let first = first || resized;
-        let look = Look::new(&self.view, mode, edges, Theme::Transparent);
+        let mut look = Look::new(&self.view, mode, edges, Theme::Transparent);
+        look.difference = u32::from(self.difference);
         let slot = self.write_uniform(queue, bytemuck::bytes_of(&look));
         if self.resolve_group.is_none() {
             self.resolve_group = Some(self.make_resolve_group(device));
@@ -353,9 +464,10 @@ impl Renderer {
     fn make_resolve_group(&self, device: &wgpu::Device) -> wgpu::BindGroup {
         let resources = vec![
             self.uniform_binding(size_of::<Look>()),
-            wgpu::BindingResource::TextureView(&self.targets.visibility_view),
-            wgpu::BindingResource::TextureView(&self.targets.depth_view),
+            wgpu::BindingResource::TextureView(&self.shown().visibility_view),
+            wgpu::BindingResource::TextureView(&self.shown().depth_view),
             self.buffers.faces().as_entire_binding(),
+            wgpu::BindingResource::TextureView(&self.targets.visibility_view),
         ];
         group(device, "shade", &self.pipelines.resolve.layout, resources)
     }
@@ -365,7 +477,7 @@ impl Renderer {
             self.uniform_binding(size_of::<Look>()),
             wgpu::BindingResource::TextureView(&self.sum.view),
             wgpu::BindingResource::Sampler(&self.sampler),
-            wgpu::BindingResource::TextureView(&self.targets.depth_view),
+            wgpu::BindingResource::TextureView(&self.shown().depth_view),
         ];
         group(device, "present", &self.pipelines.present.layout, resources)
     }
@@ -401,6 +513,15 @@ fn nearest_buffer(device: &wgpu::Device, size: [u32; 2]) -> wgpu::Buffer {
     })
 }
 
+/// The view's uniform block, at a dynamic offset.
+fn view_binding(uniforms: &wgpu::Buffer) -> wgpu::BindingResource<'_> {
+    wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+        buffer: uniforms,
+        offset: 0,
+        size: wgpu::BufferSize::new(size_of::<View>() as u64),
+    })
+}
+
 /// A pass into visibility and depth; `first` clears them and the nearest depths.
 fn begin_visibility<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
@@ -412,6 +533,16 @@ fn begin_visibility<'a>(
     if first {
         encoder.clear_buffer(nearest, 0, Some(nearest_bytes(targets.size)));
     }
+    visibility_pass(encoder, label, targets, first)
+}
+
+/// A pass into visibility and depth; `first` clears them.
+pub(super) fn visibility_pass<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    label: &str,
+    targets: &Targets,
+    first: bool,
+) -> wgpu::RenderPass<'a> {
     let clear = |value: wgpu::Color| if first { wgpu::LoadOp::Clear(value) } else { wgpu::LoadOp::Load };
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(label),

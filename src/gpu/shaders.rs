@@ -33,6 +33,32 @@ pub const MESH: &str = pieces!(
     "pass/mesh.wgsl",
 );
 
+/// Fills holes between faces by strips along trim curves.
+pub const CONCEAL: &str = pieces!(
+    "layout/view.wgsl",
+    "layout/face.wgsl",
+    "layout/ribbon.wgsl",
+    "lib/axes.wgsl",
+    "lib/pack.wgsl",
+    "lib/ray.wgsl",
+    "lib/patch_jet.wgsl",
+    "lib/ribbon.wgsl",
+    "lib/holes.wgsl",
+    "pass/conceal.wgsl",
+);
+
+/// Draws edges in colours.
+pub const EDGES: &str = pieces!(
+    "layout/view.wgsl",
+    "layout/face.wgsl",
+    "layout/ribbon.wgsl",
+    "lib/axes.wgsl",
+    "lib/patch_jet.wgsl",
+    "lib/ribbon.wgsl",
+    "lib/shade.wgsl",
+    "pass/edges.wgsl",
+);
+
 /// Shades the visibility buffer.
 pub const RESOLVE: &str = pieces!(
     "layout/face.wgsl",
@@ -47,5 +73,11 @@ pub const RESOLVE: &str = pieces!(
 pub const PRESENT: &str = pieces!("layout/look.wgsl", "lib/shade.wgsl", "pass/present.wgsl");
 
 /// Every module with its name, for validation.
-pub const MODULES: [(&str, &str); 4] =
-    [("cast", CAST), ("mesh", MESH), ("resolve", RESOLVE), ("present", PRESENT)];
+pub const MODULES: [(&str, &str); 6] = [
+    ("cast", CAST),
+    ("mesh", MESH),
+    ("conceal", CONCEAL),
+    ("edges", EDGES),
+    ("resolve", RESOLVE),
+    ("present", PRESENT),
+];

@@ -35,7 +35,15 @@ impl Targets {
     /// Textures of `size`, at least one pixel each way.
     pub fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
         let size = within(device, size);
-        let make = |label, format| texture(device, size, label, format, wgpu::TextureUsages::COPY_SRC);
+        let make = |label, format| {
+            texture(
+                device,
+                size,
+                label,
+                format,
+                wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST,
+            )
+        };
         let visibility = make("visibility", VISIBILITY_FORMAT);
         let depth = make("depth", DEPTH_FORMAT);
         let view = |t: &wgpu::Texture| t.create_view(&wgpu::TextureViewDescriptor::default());

@@ -1,6 +1,6 @@
 //! Pixels that may be pin holes: something farther shows where a nearer surface lies on both sides.
 //!
-//! For every pixel the neighbours in four directions and their opposites are looked at, up to a few pixels away. A
+//! Twin of `shaders/lib/holes.wgsl`. For every pixel the neighbours in four directions and their opposites are looked at, up to a few pixels away. A
 //! pixel is a candidate when a neighbour and one opposite to it belong to faces that share an edge, their tangent
 //! planes are about as deep at the pixel, and what the pixel shows lies behind both. Claux (2014) finds holes to fill by the same opposite neighbours; here they are only candidates, for
 //! [`crate::inspect`] to prove against the exact geometry.
@@ -45,11 +45,12 @@ pub fn z_of(view: &View, fragment: &Fragment) -> f32 {
     (fragment.depth * c - a) / (b - fragment.depth * d).min(-1e-30)
 }
 
+/// The pixels around one.
 #[derive(Clone, Copy)]
-struct Neighbourhood<'a> {
-    buffer: &'a VisibilityBuffer,
-    view: &'a View,
-    shares: &'a (dyn Fn(u32, u32) -> bool + Sync),
+pub(super) struct Neighbourhood<'a> {
+    pub buffer: &'a VisibilityBuffer,
+    pub view: &'a View,
+    pub shares: &'a (dyn Fn(u32, u32) -> bool + Sync),
 }
 
 /// A nearer surface beside a pixel.
@@ -63,7 +64,7 @@ struct Side {
 }
 
 impl Neighbourhood<'_> {
-    fn candidate(&self, x: i32, y: i32) -> Option<HoleCandidate> {
+    pub fn candidate(&self, x: i32, y: i32) -> Option<HoleCandidate> {
         let pixel = IVec2::new(x, y);
         let here = self.buffer.at(x, y);
         let z = if here.words[0] == 0 { f32::INFINITY } else { z_of(self.view, &here) };
@@ -80,6 +81,19 @@ impl Neighbourhood<'_> {
             }
         }
         None
+    }
+
+    /// Whether a slit across `direction` (unit, pixels) that is up to `most` pixels wide on either side holds a pixel.
+    pub fn wide_candidate(&self, [x, y]: [u32; 2], direction: Vec2, most: i32) -> bool {
+        let pixel = IVec2::new(x as i32, y as i32);
+        let here = self.buffer.at(pixel.x, pixel.y);
+        let z = if here.words[0] == 0 { f32::INFINITY } else { z_of(self.view, &here) };
+        let find = |sign: f32| {
+            let step = |k: i32| (sign * k as f32 * direction).round().as_ivec2();
+            (1..=most).find_map(|k| self.side(pixel, step(k), &here, z))
+        };
+        matches!((find(-1.0), find(1.0)), (Some(a), Some(b))
+            if self.one_depth(&a, &b) && (self.shares)(a.face, b.face))
     }
 
     fn width(&self, z: f32) -> f32 {

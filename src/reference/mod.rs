@@ -7,12 +7,14 @@ pub mod holes;
 pub mod mesh;
 pub mod pack;
 pub mod patch_jet;
+pub mod raster;
 pub mod ray;
 pub mod render;
 pub mod resolve;
+pub mod ribbon;
 pub mod seeds;
 pub mod shade;
 pub mod solve;
 pub mod visibility;
 
-pub use render::render_image;
+pub use render::{render_image, render_image_with};

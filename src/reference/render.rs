@@ -3,14 +3,21 @@
 use glam::{Vec4, Vec4Swizzles};
 use rayon::prelude::*;
 
-use super::resolve::resolve;
+use super::resolve::{resolve, resolve_difference};
 use super::shade::srgb_from_linear;
-use super::visibility;
+use super::{mesh, ribbon, visibility};
 use crate::encoding::options::{cast_flags, jitter};
-use crate::encoding::{DepthRange, Image, Look, PackedScene, RenderOptions, View};
+use crate::encoding::{
+    Conceal, DepthRange, Extras, Image, Look, MeshChoice, PackedScene, RenderOptions, View,
+};
 
 /// Draws `scene`. Uses all cores; the result does not depend on their number.
 pub fn render_image(scene: &PackedScene, options: &RenderOptions) -> Image {
+    render_image_with(scene, options, &Extras::default())
+}
+
+/// The same with what `extras` hold.
+pub fn render_image_with(scene: &PackedScene, options: &RenderOptions, extras: &Extras) -> Image {
     let size = options.size.map(|s| s.max(1));
     let bounds = scene.bounds();
     let depth = DepthRange::around(&options.camera, bounds.centre(), 0.5 * bounds.diagonal());
@@ -20,12 +27,25 @@ pub fn render_image(scene: &PackedScene, options: &RenderOptions) -> Image {
     let mut look = None;
     for k in 0..samples {
         let view = View::new(&options.camera, size, jitter(k), depth, cast_flags(options.mode));
-        let buffer = visibility::draw(scene, &view);
+        let buffer = match &extras.meshes {
+            Some(MeshChoice { scene: meshes, lacking }) => mesh::draw(scene, meshes, lacking, &view),
+            None => visibility::draw(scene, &view),
+        };
+        let fat = extras.ribbons.as_ref().filter(|r| r.conceal != Conceal::Raw);
+        let raw = buffer;
+        let concealed = fat.map(|r| ribbon::conceal(scene, &r.scene, &r.spans, &raw, &view));
+        let buffer = concealed.as_ref().unwrap_or(&raw);
+        let difference = fat.is_some_and(|r| r.conceal == Conceal::Difference);
         let sample = Look::new(&view, options.mode, options.edges, options.theme);
         let faces = scene.faces.data();
         sum.par_chunks_mut(width as usize).enumerate().for_each(|(y, row)| {
             for (x, pixel) in row.iter_mut().enumerate() {
-                *pixel += resolve(&sample, faces, &buffer, x as i32, y as i32);
+                let (x, y) = (x as i32, y as i32);
+                *pixel += if difference {
+                    resolve_difference(&sample, faces, (buffer, &raw), x, y)
+                } else {
+                    resolve(&sample, faces, buffer, x, y)
+                };
             }
         });
         look = Some(sample);

@@ -5,7 +5,7 @@ use glam::{IVec2, Vec2, Vec3, Vec4};
 use super::cast::Fragment;
 use super::pack::{unpack_heat_normal, unpack_normal};
 use super::ray::{Ray, ray_point};
-use super::shade::{face_palette, heat_colour, inside_tint, lit, mix, uv_board};
+use super::shade::{difference_colour, face_palette, heat_colour, inside_tint, lit, mix, uv_board};
 use super::visibility::VisibilityBuffer;
 use crate::encoding::{FaceHeader, Look};
 
@@ -71,6 +71,22 @@ fn edge_cover(look: &Look, buffer: &VisibilityBuffer, place: &Place) -> f32 {
         }
     }
     0.0
+}
+
+/// The colour of one pixel in a picture of what fat lines changed in `raw`.
+pub fn resolve_difference(
+    look: &Look,
+    faces: &[FaceHeader],
+    (buffer, raw): (&VisibilityBuffer, &VisibilityBuffer),
+    x: i32,
+    y: i32,
+) -> Vec4 {
+    let colour = resolve(look, faces, buffer, x, y);
+    let here = buffer.at(x, y).words;
+    if here[0] == 0 {
+        return colour;
+    }
+    difference_colour(colour.truncate(), raw.at(x, y).words != here).extend(colour.w)
 }
 
 /// The premultiplied linear colour of one pixel; transparent where there is no surface.

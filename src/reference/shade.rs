@@ -5,6 +5,12 @@ use glam::{Vec2, Vec3};
 const KEY: Vec3 = Vec3::new(-0.458_831_5, 0.642_364_1, -0.613_868);
 const FILL: Vec3 = Vec3::new(0.801_783_7, -0.106_904_5, -0.587_974_7);
 
+/// What fat lines filled stands out of a pale grey picture.
+pub fn difference_colour(colour: Vec3, filled: bool) -> Vec3 {
+    let grey = 0.25 + 0.6 * colour.dot(Vec3::new(0.2126, 0.7152, 0.0722));
+    if filled { Vec3::new(0.85, 0.01, 0.16) } else { Vec3::splat(grey) }
+}
+
 /// Light of a surface of colour `base` with unit normal `n`, seen along `-eye`; both sides are lit.
 pub fn lit(base: Vec3, n: Vec3, eye: Vec3) -> Vec3 {
     let facing = n.dot(eye).clamp(0.0, 1.0);

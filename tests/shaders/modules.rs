@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use hairline::encoding::cell::Cell;
-use hairline::encoding::{FaceHeader, Look, MeshOrigin, MeshVertex, View};
+use hairline::encoding::{EdgeLook, FaceHeader, Look, MeshOrigin, MeshVertex, RibbonPiece, RibbonSpan, View};
 use hairline::gpu::shaders;
 use hairline::kernel::trim::grid::GridHeader;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -53,8 +53,15 @@ fn rust_mirrors_match_the_shaders() {
     let grid = layout!(GridHeader: columns, rows, scale_u, scale_v, cell_base, entry_base, data_base, flags);
     assert_eq!(members(&cast, "GridHeader"), grid);
     let look = layout!(Look: background_top, background_bottom, edge, selected, hovered, slope_scale,
-        offset_scale, jitter, size, depth, mode, edges, samples, edge_width, pixel, pad0, pad1);
+        offset_scale, jitter, size, depth, mode, edges, samples, edge_width, pixel, difference, pad1);
     assert_eq!(members(&resolve, "Look"), look);
+    let conceal = parse(shaders::CONCEAL);
+    let piece = layout!(RibbonPiece: origin_high, first_point, origin_low, degrees, uv_min, uv_max, first_curve,
+        face, other, edge, gap, pad0, pad1, pad2);
+    assert_eq!(members(&conceal, "RibbonPiece"), piece);
+    assert_eq!(members(&conceal, "RibbonSpan"), layout!(RibbonSpan: piece, start, end, pad0));
+    let edges = parse(shaders::EDGES);
+    assert_eq!(members(&edges, "EdgeLook"), layout!(EdgeLook: colour, width, pad0, pad1, pad2));
     let mesh = parse(shaders::MESH);
     let vertex = layout!(MeshVertex: position, face, normal, flags, uv, pad0, pad1);
     assert_eq!(members(&mesh, "MeshVertex"), vertex);
@@ -82,6 +89,7 @@ fn constants_match() {
     assert_eq!(find(&cast, "CELL_WHOLE"), Cell::WHOLE);
     assert_eq!(find(&cast, "FACE_TRIMMED"), FaceHeader::TRIMMED);
     assert_eq!(find(&parse(shaders::MESH), "MESH_WHOLE"), MeshVertex::WHOLE);
+    assert_eq!(find(&parse(shaders::CONCEAL), "RIBBON_SEGMENTS"), hairline::encoding::ribbon::SEGMENTS);
     let resolve = parse(shaders::RESOLVE);
     assert_eq!(find(&resolve, "FACE_VISIBLE"), FaceHeader::VISIBLE);
     assert_eq!(find(&resolve, "FACE_SELECTED"), FaceHeader::SELECTED);

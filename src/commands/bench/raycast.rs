@@ -11,16 +11,20 @@ use glam::{DVec2, DVec3};
 
 use super::sheet::{Sheet, number};
 use crate::encoding::options::cast_flags;
-use crate::encoding::{DepthRange, DisplayMode, FaceShape, PackedScene, View};
+use crate::encoding::{
+    DepthRange, DisplayMode, FaceShape, FaceSlot, LevelView, MeshChoice, MeshScene, PackedScene, View,
+};
 use crate::kernel::bezier::BezierPatch;
 use crate::kernel::face::{Face, UvRect};
 use crate::kernel::view::{Camera, Projection, StandardView};
 use crate::reference::cast::CastCounts;
-use crate::reference::visibility;
+use crate::reference::{mesh, visibility};
 use crate::scene::records::ModelRecord;
 
 const SIZE: [u32; 2] = [1024, 768];
 const FRAMES: u32 = 5;
+/// Error of the second renderer's triangles on the screen, pixels.
+const MESH_ERROR_PX: f64 = 0.5;
 
 /// CPU seconds of a frame and the pixels it fills.
 #[derive(Debug, Clone, Copy)]
@@ -31,7 +35,8 @@ struct Frame {
 }
 
 /// Something that casts frames: the twin, or the renderer on a driver.
-type Caster<'a> = dyn FnMut(&mut PackedScene, &Camera, DisplayMode) -> Option<Frame> + 'a;
+type Caster<'a> =
+    dyn FnMut(&mut PackedScene, Option<&mut MeshChoice>, &Camera, DisplayMode) -> Option<Frame> + 'a;
 
 /// Prints a table for each backend.
 ///
@@ -45,9 +50,10 @@ pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
     match crate::gpu::Context::headless() {
         Ok(context) => {
             let name = context.adapter_name.clone();
-            let mut caster = |scene: &mut PackedScene, camera: &Camera, mode| {
-                gpu_frame(&context, scene, camera, mode).ok()
-            };
+            let mut caster =
+                |scene: &mut PackedScene, meshes: Option<&mut MeshChoice>, camera: &Camera, mode| {
+                    gpu_frame(&context, scene, meshes, camera, mode).ok()
+                };
             table(&name, models, &mut caster, out)?;
         }
         Err(error) => writeln!(out, "No table for the graphics driver: {error}\n")?,
@@ -73,6 +79,10 @@ fn table(name: &str, models: &[ModelRecord], caster: &mut Caster, out: &mut impl
             "solves/px",
             "eval/px",
             "trims/px",
+            "triangles",
+            "mesh s",
+            "mesh untrimmed s",
+            "rays/mesh",
         ],
     );
     for model in models {
@@ -82,11 +92,18 @@ fn table(name: &str, models: &[ModelRecord], caster: &mut Caster, out: &mut impl
         let projection = Projection::Perspective { fov_y: 0.6 };
         let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
         let camera = tight(&scene, Camera::fit(&scene.bounds(), direction, up, projection, aspect));
-        let trimmed = caster(&mut scene, &camera, DisplayMode::Shaded);
-        let untrimmed = caster(&mut scene, &camera, DisplayMode::Untrimmed);
+        let trimmed = caster(&mut scene, None, &camera, DisplayMode::Shaded);
+        let untrimmed = caster(&mut scene, None, &camera, DisplayMode::Untrimmed);
         let (mut patch_scene, patch_camera) = one_patch(common_degrees(&faces));
-        let solve = caster(&mut patch_scene, &patch_camera, DisplayMode::Untrimmed)
+        let solve = caster(&mut patch_scene, None, &patch_camera, DisplayMode::Untrimmed)
             .map(|f| f.seconds / f.filled.max(1) as f64);
+        let mut meshes = MeshScene::default();
+        let face = |slot: FaceSlot| faces.get(slot.0 as usize);
+        let lacking = meshes.prepare(&scene, face, &LevelView::new(&camera, SIZE), MESH_ERROR_PX);
+        let triangles = (meshes.indices().len() / 3).to_string();
+        let mut choice = MeshChoice { scene: meshes, lacking };
+        let meshed = caster(&mut scene, Some(&mut choice), &camera, DisplayMode::Shaded);
+        let meshed_whole = caster(&mut scene, Some(&mut choice), &camera, DisplayMode::Untrimmed);
         let per_pixel = trimmed.map(|f| f.seconds / f.filled.max(1) as f64);
         let ratio = |a: Option<f64>, b: Option<f64>| Some(a? / b?);
         let mut row = vec![
@@ -104,6 +121,12 @@ fn table(name: &str, models: &[ModelRecord], caster: &mut Caster, out: &mut impl
         let counts = trimmed.map(|f| f.counts).filter(|c| c.entered > 0);
         let counts = counts.map(|c| [c.entered, c.hidden, c.solves, c.evaluations, c.classified]);
         row.extend((0..5).map(|k| number(counts.map(|c| c[k] as f64 / filled))));
+        row.extend([
+            triangles,
+            number(meshed.map(|f| f.seconds)),
+            number(meshed_whole.map(|f| f.seconds)),
+            number(ratio(trimmed.map(|f| f.seconds), meshed.map(|f| f.seconds))),
+        ]);
         sheet.row(row);
     }
     writeln!(out, "{sheet}")
@@ -180,11 +203,20 @@ fn depth_of(scene: &PackedScene, camera: &Camera) -> DepthRange {
     DepthRange::around(camera, bounds.centre(), 0.5 * bounds.diagonal())
 }
 
-fn twin_frame(scene: &mut PackedScene, camera: &Camera, mode: DisplayMode) -> Option<Frame> {
+fn twin_frame(
+    scene: &mut PackedScene,
+    meshes: Option<&mut MeshChoice>,
+    camera: &Camera,
+    mode: DisplayMode,
+) -> Option<Frame> {
     let view = View::new(camera, SIZE, [0.0; 2], depth_of(scene, camera), cast_flags(mode));
-    let buffer = visibility::draw(scene, &view);
+    let draw = || match &meshes {
+        Some(choice) => mesh::draw(scene, &choice.scene, &choice.lacking, &view),
+        None => visibility::draw(scene, &view),
+    };
+    let buffer = draw();
     let filled = buffer.fragments.iter().filter(|f| f.words[0] != 0).count();
-    let seconds = cpu_per_run(FRAMES, || drop(visibility::draw(scene, &view)));
+    let seconds = cpu_per_run(FRAMES, || drop(draw()));
     Some(Frame { seconds, filled, counts: buffer.counts })
 }
 
@@ -192,6 +224,7 @@ fn twin_frame(scene: &mut PackedScene, camera: &Camera, mode: DisplayMode) -> Op
 fn gpu_frame(
     context: &crate::gpu::Context,
     scene: &mut PackedScene,
+    meshes: Option<&mut MeshChoice>,
     camera: &Camera,
     mode: DisplayMode,
 ) -> Result<Frame, crate::gpu::GpuError> {
@@ -200,12 +233,21 @@ fn gpu_frame(
     let mut renderer = Renderer::new(device, wgpu::TextureFormat::Rgba8Unorm);
     scene.touch_all();
     renderer.upload(device, queue, scene)?;
+    let from_triangles = meshes.is_some();
+    if let Some(MeshChoice { scene: meshes, lacking }) = meshes {
+        meshes.touch_all();
+        renderer.upload_meshes(device, queue, meshes, scene, lacking)?;
+    }
     let sample =
         Sample { camera: *camera, depth: depth_of(scene, camera), size: SIZE, jitter: [0.0; 2], mode };
     let mut failed = Ok(());
     let mut cast = || {
         let mut encoder = device.create_command_encoder(&Default::default());
-        renderer.cast(device, queue, &mut encoder, &sample);
+        if from_triangles {
+            renderer.draw_meshes(device, queue, &mut encoder, &sample);
+        } else {
+            renderer.cast(device, queue, &mut encoder, &sample);
+        }
         queue.submit([encoder.finish()]);
         let waited = context.wait();
         if waited.is_err() {

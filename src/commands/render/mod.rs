@@ -11,12 +11,17 @@ pub use pack::{Prepared, prepare};
 
 use std::path::Path;
 
-use super::arguments::{Backend, Mode, RenderArguments};
+use super::arguments::{Backend, Holes, Mode, RenderArguments, Surfaces};
 use super::failure::Failure;
 use super::progress::Progress;
 use super::{output, source};
-use crate::encoding::{DisplayMode, Image, PackedScene, RenderOptions};
+use crate::encoding::{
+    Conceal, DisplayMode, Extras, FaceSlot, Image, LevelView, MeshChoice, MeshScene, PackedScene,
+    RenderOptions, RibbonChoice,
+};
+use crate::inspect::{self, Inspection};
 use crate::reference;
+use crate::scene::records::ModelRecord;
 
 /// Draws `arguments.file` into `arguments.output`.
 ///
@@ -44,8 +49,19 @@ pub fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         mode: mode(arguments.mode),
         ..RenderOptions::new(camera, size)
     };
+    let mut extras = Extras::default();
+    if arguments.renderer == Surfaces::Mesh {
+        let progress = Progress::start("tessellating");
+        extras.meshes = Some(triangles(&ready, &options));
+        drop(progress);
+    }
+    if arguments.conceal != Holes::Raw {
+        let progress = Progress::start("measuring gaps");
+        extras.ribbons = Some(fat_lines(&opened.model, &ready, &options, arguments.conceal));
+        drop(progress);
+    }
     let progress = Progress::start("drawing");
-    let image = draw(&mut ready.scene, &options, arguments.backend)?;
+    let image = draw_with(&mut ready.scene, &options, &mut extras, arguments.backend)?;
     drop(progress);
     write_png(&image, &arguments.output)
 }
@@ -69,13 +85,52 @@ pub fn draw(
     options: &RenderOptions,
     backend: Option<Backend>,
 ) -> Result<Image, Failure> {
+    draw_with(scene, options, &mut Extras::default(), backend)
+}
+
+/// Fat lines along the edges that faces of `model` share.
+fn fat_lines(model: &ModelRecord, ready: &Prepared, options: &RenderOptions, holes: Holes) -> RibbonChoice {
+    let inspection = Inspection::in_unit(&model.faces, model.unit.millimetres);
+    let face = |k: usize| Some((ready.faces.get(k)?.as_ref()?, FaceSlot(k as u32)));
+    let (scene, _) = inspect::ribbons(&inspection, &face);
+    let spans = scene.concealing_spans(&LevelView::new(&options.camera, options.size));
+    let conceal = match holes {
+        Holes::Raw => Conceal::Raw,
+        Holes::Concealed => Conceal::Concealed,
+        Holes::Difference => Conceal::Difference,
+    };
+    RibbonChoice { scene, spans, conceal }
+}
+
+/// Error of triangles on the screen, pixels.
+const MESH_ERROR_PX: f64 = 0.5;
+
+/// The triangles that show `ready` as `options` ask for, wrong by at most half a pixel.
+pub fn triangles(ready: &Prepared, options: &RenderOptions) -> MeshChoice {
+    let view = LevelView::new(&options.camera, options.size);
+    let mut scene = MeshScene::default();
+    let face = |slot: FaceSlot| ready.faces.get(slot.0 as usize)?.as_ref();
+    let lacking = scene.prepare(&ready.scene, face, &view, MESH_ERROR_PX);
+    MeshChoice { scene, lacking }
+}
+
+/// [`draw`] with what `extras` hold.
+///
+/// # Errors
+/// As [`draw`].
+pub fn draw_with(
+    scene: &mut PackedScene,
+    options: &RenderOptions,
+    extras: &mut Extras,
+    backend: Option<Backend>,
+) -> Result<Image, Failure> {
     match backend {
-        Some(Backend::Cpu) => Ok(reference::render_image(scene, options)),
-        Some(Backend::Gpu) => draw_on_gpu(scene, options),
-        None => match draw_on_gpu(scene, options) {
+        Some(Backend::Cpu) => Ok(reference::render_image_with(scene, options, extras)),
+        Some(Backend::Gpu) => draw_on_gpu(scene, options, extras),
+        None => match draw_on_gpu(scene, options, extras) {
             Err(Failure::Lacking { reason }) => {
                 eprintln!("hairline: note: {reason}; the processor draws instead");
-                Ok(reference::render_image(scene, options))
+                Ok(reference::render_image_with(scene, options, extras))
             }
             result => result,
         },
@@ -83,9 +138,13 @@ pub fn draw(
 }
 
 #[cfg(feature = "gpu")]
-fn draw_on_gpu(scene: &mut PackedScene, options: &RenderOptions) -> Result<Image, Failure> {
-    use crate::gpu::{Context, GpuError, render_image};
-    let result = Context::headless().and_then(|context| render_image(&context, scene, options));
+fn draw_on_gpu(
+    scene: &mut PackedScene,
+    options: &RenderOptions,
+    extras: &mut Extras,
+) -> Result<Image, Failure> {
+    use crate::gpu::{Context, GpuError, render_image_with};
+    let result = Context::headless().and_then(|context| render_image_with(&context, scene, options, extras));
     result.map_err(|error| match error {
         GpuError::NoDriver { .. } => Failure::Lacking { reason: error.to_string() },
         _ => Failure::Work { reason: error.to_string() },
@@ -93,7 +152,11 @@ fn draw_on_gpu(scene: &mut PackedScene, options: &RenderOptions) -> Result<Image
 }
 
 #[cfg(not(feature = "gpu"))]
-fn draw_on_gpu(_scene: &mut PackedScene, _options: &RenderOptions) -> Result<Image, Failure> {
+fn draw_on_gpu(
+    _scene: &mut PackedScene,
+    _options: &RenderOptions,
+    _extras: &mut Extras,
+) -> Result<Image, Failure> {
     Err(Failure::Lacking { reason: "this program was built without graphics drivers (feature `gpu`)".into() })
 }
 

@@ -1,0 +1,42 @@
+//! The edges of a model as ribbons for drawing: fat lines as wide as the measured gaps, and edges in colours.
+
+use super::{EdgeKey, EdgeKind, Inspection};
+use crate::encoding::{FaceSlot, RibbonScene, RibbonShape};
+use crate::kernel::face::Face;
+
+/// Packs all edges. `face`: the derived face at a position of the model and its slot in the packed scene. Returns the
+/// ribbons and the edges by the numbers that their ribbons carry.
+pub fn ribbons<'a>(
+    inspection: &Inspection,
+    face: &dyn Fn(usize) -> Option<(&'a Face, FaceSlot)>,
+) -> (RibbonScene, Vec<EdgeKey>) {
+    let (mut shapes, mut keys) = (Vec::new(), Vec::new());
+    for (key, edge) in inspection.edges() {
+        let number = keys.len() as u32;
+        keys.push(*key);
+        if edge.kind == EdgeKind::Degenerate {
+            continue;
+        }
+        let gap = edge.gap.map_or(0.0, |g| g.maximum + g.error_bound);
+        for (k, used) in edge.uses.iter().enumerate() {
+            let across = &edge.uses[(k + 1) % edge.uses.len()];
+            let (Some((own, slot)), Some((_, other)), Some(curve)) =
+                (face(used.curve.face), face(across.curve.face), inspection.curve(&used.curve))
+            else {
+                continue;
+            };
+            let (from, to) = used.interval;
+            for (piece, (a, b)) in curve.pieces() {
+                let (low, high) = ((from.max(*a) - a) / (b - a), (to.min(*b) - a) / (b - a));
+                if high - low <= 1e-9 {
+                    continue;
+                }
+                let whole = low <= 0.0 && high >= 1.0;
+                let curve = if whole { piece.clone() } else { piece.restrict(low.max(0.0), high.min(1.0)) };
+                let shape = RibbonShape { face: own, slot, other, curve, gap, edge: number };
+                shapes.push((shape, edge.uses.len() > 1));
+            }
+        }
+    }
+    (RibbonScene::new(shapes), keys)
+}
