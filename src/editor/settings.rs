@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::EditorSystems;
 use super::tools::{Action, CommandRequest};
+use crate::encoding::Conceal;
 
 /// How surfaces are coloured.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -23,6 +24,19 @@ pub enum DisplayMode {
     Heat,
     /// Lit, trimmed-away regions shown too.
     Untrimmed,
+}
+
+/// How surfaces become pixels.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Surfaces {
+    /// Rays; triangles while the view moves and rays would have to be coarse.
+    #[default]
+    Auto,
+    /// Rays at the exact surfaces only.
+    Rays,
+    /// Triangles only, trimmed exactly.
+    Triangles,
 }
 
 impl DisplayMode {
@@ -61,6 +75,13 @@ pub struct Settings {
     /// How surfaces are coloured. Not kept between runs: it is about the model, not the user.
     #[serde(skip)]
     pub mode: DisplayMode,
+    /// What is done about pin holes. Not kept either.
+    #[serde(skip)]
+    pub holes: Conceal,
+    /// Whether pin holes are marked while edges are inspected.
+    pub pin_holes: bool,
+    /// How surfaces become pixels.
+    pub surfaces: Surfaces,
     /// Whether edges are drawn.
     pub edges: bool,
     /// Whether the ground grid is drawn.
@@ -99,6 +120,9 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             mode: DisplayMode::Shaded,
+            holes: Conceal::Raw,
+            pin_holes: true,
+            surfaces: Surfaces::Auto,
             edges: true,
             grid: true,
             light: false,
@@ -135,6 +159,16 @@ fn switch(mut requests: MessageReader<CommandRequest>, mut settings: ResMut<Sett
                 settings.mode = *mode;
                 continue;
             }
+            Action::Holes(holes) => {
+                settings.holes = *holes;
+                // Fat lines are as wide as the gaps that were measured.
+                settings.inspection |= *holes != Conceal::Raw;
+                continue;
+            }
+            Action::Surfaces(surfaces) => {
+                settings.surfaces = *surfaces;
+                continue;
+            }
             Action::ToggleEdges => &mut settings.edges,
             Action::ToggleGrid => &mut settings.grid,
             Action::ToggleTheme => &mut settings.light,
@@ -143,6 +177,7 @@ fn switch(mut requests: MessageReader<CommandRequest>, mut settings: ResMut<Sett
             Action::ToggleReport => &mut settings.report,
             Action::ToggleHistory => &mut settings.history,
             Action::ToggleProblems => &mut settings.problems,
+            Action::TogglePinHoles => &mut settings.pin_holes,
             Action::ToggleInspection => &mut settings.inspection,
             Action::ToggleUv => &mut settings.uv,
             Action::ToggleUvSide => &mut settings.uv_beside,

@@ -11,6 +11,7 @@ mod choose;
 mod findings;
 mod follow;
 mod lines;
+mod pin_holes;
 mod probe;
 pub mod ramp;
 mod rows;
@@ -20,6 +21,7 @@ use bevy::prelude::*;
 pub use choose::{Chosen, InspectRequest};
 pub use findings::{Findings, Progress};
 pub use lines::{EdgeLine, EdgeLines};
+pub use pin_holes::PinHoles;
 pub use probe::{Probe, local_gap};
 pub use rows::{Column, Filter, Order, Row, Rows};
 
@@ -53,6 +55,7 @@ impl Plugin for InspectionPlugin {
             .init_resource::<InspectionChoices>()
             .init_resource::<Findings>()
             .init_resource::<Rows>()
+            .init_resource::<PinHoles>()
             .init_resource::<EdgeLines>()
             .init_resource::<Chosen>()
             .init_resource::<Probe>()

@@ -12,6 +12,7 @@ use crate::editor::diagnostics::RenderFigures;
 use crate::editor::object::{AuthoredFace, DerivedFace, FaceChange, FacePlace, Shown};
 use crate::editor::selection::Selection;
 use crate::encoding::{FaceHeader, FaceShape, FaceSlot, PackedScene};
+use crate::kernel::face::Face;
 
 /// Time for packing per frame: a large model appears piece by piece and the window stays alive.
 const PACK_TIME: Duration = Duration::from_millis(40);
@@ -44,6 +45,8 @@ pub(super) struct RenderFaces {
     pub marks: Vec<u32>,
     selected: u64,
     hovered: Option<Entity>,
+    /// Slots whose faces changed since they were last taken.
+    pub changed: Vec<FaceSlot>,
     /// Counts changes of what rays can hit.
     pub geometry: u64,
     /// Counts changes of `marks`.
@@ -54,6 +57,23 @@ pub(super) struct RenderFaces {
 }
 
 impl RenderFaces {
+    /// What the face in a slot was packed from.
+    pub fn derived(&self, slot: FaceSlot) -> Option<&Arc<Derived>> {
+        let origin = self.origins.get(&self.entity(slot.0)?)?;
+        Some(&origin.derived).filter(|_| origin.slot == Some(slot))
+    }
+
+    /// The faces by slot.
+    pub fn entities_by_slot(&self) -> &[Option<Entity>] {
+        &self.entities
+    }
+
+    /// A face that is packed, and its slot.
+    pub fn packed_face(&self, entity: Entity) -> Option<(&Face, FaceSlot)> {
+        let origin = self.origins.get(&entity)?;
+        Some((origin.derived.face.as_deref()?, origin.slot?))
+    }
+
     /// The face in a slot.
     pub fn entity(&self, slot: u32) -> Option<Entity> {
         self.entities.get(slot as usize).copied().flatten()
@@ -121,6 +141,7 @@ impl RenderFaces {
         if let Some(slot) = origin.slot {
             self.packed.remove(slot);
             self.entities[slot.0 as usize] = None;
+            self.changed.push(slot);
         }
         self.geometry += 1;
     }
@@ -193,6 +214,7 @@ fn pack(faces: &mut RenderFaces, selection: &Selection) -> bool {
         let Some(face) = origin.derived.face.as_deref() else {
             // What cannot be derived any more is not drawn any more.
             if let Some(slot) = origin.slot.take() {
+                faces.changed.push(slot);
                 faces.packed.remove(slot);
                 faces.entities[slot.0 as usize] = None;
                 faces.unshown = true;
@@ -209,6 +231,7 @@ fn pack(faces: &mut RenderFaces, selection: &Selection) -> bool {
         };
         faces.packed.set_flag(slot, FaceHeader::VISIBLE, origin.shown);
         origin.slot = Some(slot);
+        faces.changed.push(slot);
         let index = slot.0 as usize;
         if faces.entities.len() <= index {
             faces.entities.resize(index + 1, None);

@@ -12,10 +12,13 @@ mod frame;
 mod grid;
 mod handles;
 mod highlight;
+mod holes;
 mod lines;
 mod model;
 mod pick;
 pub mod quality;
+mod ribbons;
+mod triangles;
 
 use bevy::core_pipeline::Core3d;
 use bevy::core_pipeline::Core3dSystems;
@@ -37,6 +40,7 @@ pub struct RenderPlugin;
 impl Plugin for RenderPlugin {
     fn build(&self, app: &mut App) {
         let answers = pick::PickAnswers::default();
+        let pictures = holes::HolePictures::default();
         // The panels' shader under bevy_egui's handle: its plugin is there already.
         let panels = include_str!("../../../shaders/pass/panels.wgsl");
         let panels = Shader::from_wgsl(panels, "shaders/pass/panels.wgsl");
@@ -47,13 +51,21 @@ impl Plugin for RenderPlugin {
         }
         app.add_plugins(RenderDiagnosticsPlugin)
             .insert_resource(answers.clone())
+            .insert_resource(pictures.clone())
             .init_resource::<frame::CastTime>()
-            .add_systems(Update, (pick::deliver, frame::read_cast_time).before(EditorSystems::Input));
+            .add_systems(
+                Update,
+                (pick::deliver, holes::prove, frame::read_cast_time).before(EditorSystems::Input),
+            );
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
             .insert_resource(answers)
+            .insert_resource(pictures)
+            .init_resource::<holes::HoleReadback>()
             .init_resource::<frame::FrameView>()
             .init_resource::<faces::RenderFaces>()
+            .init_resource::<ribbons::RenderRibbons>()
+            .init_resource::<triangles::RenderTriangles>()
             .init_resource::<edges::RenderEdges>()
             .init_resource::<handles::ExtractedHandles>()
             .init_resource::<Waker>()
@@ -71,7 +83,13 @@ impl Plugin for RenderPlugin {
             )
             .add_systems(
                 ExtractSchedule,
-                (frame::extract, faces::extract, edges::extract, handles::extract, mark),
+                (
+                    frame::extract,
+                    (faces::extract, ribbons::extract).chain(),
+                    edges::extract,
+                    handles::extract,
+                    mark,
+                ),
             )
             .add_systems(
                 Core3d,
@@ -80,6 +98,7 @@ impl Plugin for RenderPlugin {
                     model::draw,
                     highlight::draw,
                     pick::copy,
+                    holes::copy,
                     lines::draw,
                     edges::draw,
                     handles::draw,
@@ -89,7 +108,7 @@ impl Plugin for RenderPlugin {
                     .before(main_transparent_pass_3d)
                     .in_set(Core3dSystems::MainPass),
             )
-            .add_systems(Render, pick::collect.in_set(RenderSystems::Cleanup));
+            .add_systems(Render, (pick::collect, holes::collect).in_set(RenderSystems::Cleanup));
     }
 }
 

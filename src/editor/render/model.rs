@@ -11,11 +11,13 @@ use glam::{DVec2, DVec3};
 use super::faces::RenderFaces;
 use super::frame::FrameView;
 use super::quality::{Next, Plan, Quality, SAMPLES, STRIPS};
+use super::ribbons::RenderRibbons;
+use super::triangles::RenderTriangles;
 use crate::editor::diagnostics::RenderFigures;
 use crate::editor::redraw::Waker;
-use crate::editor::settings::DisplayMode;
+use crate::editor::settings::{DisplayMode, Surfaces};
 use crate::encoding::options::jitter;
-use crate::encoding::{self, DepthRange, EdgeStyle, Theme};
+use crate::encoding::{self, Conceal, DepthRange, EdgeStyle, LevelView, Theme};
 use crate::gpu::renderer::Presentation;
 use crate::gpu::{Renderer, Sample};
 use crate::kernel::view::{Bounds, Camera as ViewPoint};
@@ -24,6 +26,8 @@ use crate::kernel::view::{Bounds, Camera as ViewPoint};
 pub(super) const CAST_SPAN: &str = "hairline_cast";
 /// The same for a band of the picture at rest.
 pub(super) const BAND_SPAN: &str = "hairline_band";
+/// The same for triangles in place of rays.
+const MESH_SPAN: &str = "hairline_mesh";
 
 /// The renderer and what its picture shows.
 #[derive(Resource)]
@@ -36,6 +40,8 @@ pub(super) struct ModelPass {
     /// Counts changes of the visibility buffer.
     pub casts: u64,
     failure: Option<String>,
+    /// Revision of the fat lines on the GPU.
+    ribbons: Option<u64>,
 }
 
 /// What decides which ray hits what.
@@ -46,6 +52,7 @@ struct CastKey {
     geometry: u64,
     heat: bool,
     untrimmed: bool,
+    surfaces: Surfaces,
 }
 
 /// What decides the colour of a hit.
@@ -53,12 +60,21 @@ struct CastKey {
 struct ShadeKey {
     mode: DisplayMode,
     edges: bool,
+    holes: Conceal,
+    /// Revision of the fat lines.
+    ribbons: u64,
 }
 
 /// At start, and again after a device loss: everything is made anew from the extracted faces.
-pub(super) fn create(mut commands: Commands, mut faces: ResMut<RenderFaces>) {
+pub(super) fn create(
+    mut commands: Commands,
+    mut faces: ResMut<RenderFaces>,
+    mut triangles: ResMut<RenderTriangles>,
+) {
     faces.repack();
+    triangles.scene.touch_all();
     commands.insert_resource(ModelPass {
+        ribbons: None,
         renderer: None,
         quality: Quality::careful(),
         cast: None,
@@ -84,7 +100,11 @@ fn mode_of(mode: DisplayMode) -> encoding::DisplayMode {
 pub(super) fn draw(
     view: ViewQuery<(&ViewTarget, &ViewDepthTexture), With<super::DrawsModel>>,
     mut pass: ResMut<ModelPass>,
-    mut faces: ResMut<RenderFaces>,
+    (mut faces, mut triangles, mut ribbons): (
+        ResMut<RenderFaces>,
+        ResMut<RenderTriangles>,
+        ResMut<RenderRibbons>,
+    ),
     frame: Res<FrameView>,
     figures: Res<RenderFigures>,
     waker: Res<Waker>,
@@ -97,7 +117,9 @@ pub(super) fn draw(
     let format = target.main_texture_format();
     if pass.renderer.as_ref().is_none_or(|(f, _)| *f != format) {
         pass.renderer = Some((format, Renderer::new(device, format)));
+        ribbons.scene.touch_all();
         pass.cast = None;
+        pass.ribbons = None;
         if pass.casts > 0 {
             faces.repack();
         }
@@ -125,8 +147,18 @@ pub(super) fn draw(
         geometry: faces.geometry,
         heat: mode == DisplayMode::Heat,
         untrimmed: mode == DisplayMode::Untrimmed,
+        surfaces: frame.settings.surfaces,
     };
-    let shade = ShadeKey { mode, edges: frame.settings.edges };
+    let holes = if ribbons.is_ready() { frame.settings.holes } else { Conceal::Raw };
+    let fat_lines = if holes == Conceal::Raw { 0 } else { ribbons.revision };
+    let shade = ShadeKey { mode, edges: frame.settings.edges, holes, ribbons: fat_lines };
+    if pass.ribbons != Some(fat_lines) && holes != Conceal::Raw {
+        if let Err(error) = renderer.upload_ribbons(device, &queue, &mut ribbons.scene) {
+            error!("fat lines cannot be drawn: {error}");
+        }
+        pass.ribbons = Some(fat_lines);
+    }
+    triangles.forget(faces.changed.drain(..));
     if let Some(ms) = frame.cast_ms {
         pass.quality.measure(frame.cast_scale, ms, figures.lock().frame_ms);
     }
@@ -147,17 +179,43 @@ pub(super) fn draw(
     let edges = EdgeStyle { visible: shade.edges, width_px: frame.viewport.scale_factor };
     // Edges are a pixel wide: in a coarse picture they would be bars.
     let edges_at = |scale: f32| EdgeStyle { visible: edges.visible && scale > 0.45, ..edges };
+    // Triangles for good, or while rays would have to be coarse.
+    let from_triangles = match plan {
+        Plan::Cast { .. } if frame.settings.surfaces == Surfaces::Triangles => true,
+        Plan::Cast { scale, sample: 0, from: 0, to: STRIPS } => {
+            frame.settings.surfaces == Surfaces::Auto && scale < 1.0
+        }
+        _ => false,
+    };
+    let lacking = match from_triangles {
+        true => triangles.prepare(&faces, &LevelView::new(&frame.camera, size.to_array()), &waker),
+        false => None,
+    };
+    let conceal_at = |size: UVec2| match holes {
+        Conceal::Raw => None,
+        _ => Some(ribbons.scene.concealing_spans(&LevelView::new(&frame.camera, size.to_array()))),
+    };
     let recorder = ctx.diagnostic_recorder();
     let name = match plan {
         Plan::Keep | Plan::Shade => None,
+        Plan::Cast { .. } if lacking.is_some() => Some(MESH_SPAN),
         Plan::Cast { sample: 0, from: 0, to: STRIPS, .. } => Some(CAST_SPAN),
         Plan::Cast { .. } => Some(BAND_SPAN),
     };
     let span = name.and_then(|name| Some(recorder.as_deref()?.time_span(ctx.command_encoder(), name)));
     match plan {
         Plan::Keep => {}
-        Plan::Shade => renderer.shade(device, &queue, ctx.command_encoder(), mode_of(mode), edges, true),
+        Plan::Shade => {
+            renderer.reveal();
+            if let Some(spans) = conceal_at(UVec2::from_array(renderer.targets().size)) {
+                let difference = holes == Conceal::Difference;
+                renderer.conceal(device, &queue, ctx.command_encoder(), &spans, difference);
+            }
+            renderer.shade(device, &queue, ctx.command_encoder(), mode_of(mode), edges, true);
+        }
         Plan::Cast { scale, sample, from, to } => {
+            // Triangles are quick enough for every pixel.
+            let scale = if lacking.is_some() { 1.0 } else { scale };
             let scaled = (size.as_vec2() * scale).ceil().as_uvec2().max(UVec2::ONE);
             let rays = Sample {
                 camera: frame.camera,
@@ -168,8 +226,23 @@ pub(super) fn draw(
             };
             let row = |strip: u32| (u64::from(scaled.y) * u64::from(strip) / u64::from(STRIPS)) as u32;
             let rows = row(from)..row(to);
-            renderer.cast_rows(device, &queue, ctx.command_encoder(), &rays, rows);
+            match &lacking {
+                Some(lacking) if to == STRIPS => {
+                    let sent =
+                        renderer.upload_meshes(device, &queue, &mut triangles.scene, &faces.packed, lacking);
+                    if let Err(error) = sent {
+                        error!("triangles cannot be drawn: {error}");
+                    }
+                    renderer.draw_meshes(device, &queue, ctx.command_encoder(), &rays);
+                }
+                Some(_) => {}
+                None => renderer.cast_rows(device, &queue, ctx.command_encoder(), &rays, rows),
+            }
             if to == STRIPS {
+                if let Some(spans) = conceal_at(scaled) {
+                    let difference = holes == Conceal::Difference;
+                    renderer.conceal(device, &queue, ctx.command_encoder(), &spans, difference);
+                }
                 renderer.shade(
                     device,
                     &queue,

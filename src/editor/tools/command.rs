@@ -8,7 +8,8 @@ use bevy::prelude::Message;
 use super::edit_action::EditAction;
 use super::key::Shortcut;
 use super::situation::Situation;
-use crate::editor::settings::{DisplayMode, Handles, Settings};
+use crate::editor::settings::{DisplayMode, Handles, Settings, Surfaces};
+use crate::encoding::Conceal;
 use crate::kernel::view::StandardView;
 
 /// What a command does. Each capability listens for its own.
@@ -46,12 +47,15 @@ pub enum Action {
     ToggleHistory,
     ToggleProblems,
     ToggleInspection,
+    TogglePinHoles,
     NextDefect,
     PreviousDefect,
     ToggleUv,
     ToggleUvSide,
     Handles(Handles),
     Display(DisplayMode),
+    Holes(Conceal),
+    Surfaces(Surfaces),
     ToggleEdges,
     ToggleGrid,
     ToggleTheme,
@@ -344,6 +348,38 @@ const PLAIN: &[Command] = &[
         &[code(KeyCode::F9), key('x')],
     )
     .checked(|s| s.mode == DisplayMode::Untrimmed),
+    command(Display, Action::Surfaces(Surfaces::Auto), "display.auto", "Triangles while moving", &[])
+        .separated()
+        .checked(|s| s.surfaces == Surfaces::Auto),
+    command(Display, Action::Surfaces(Surfaces::Rays), "display.rays", "Rays only", &[])
+        .checked(|s| s.surfaces == Surfaces::Rays),
+    command(Display, Action::Surfaces(Surfaces::Triangles), "display.triangles", "Triangles only", &[])
+        .checked(|s| s.surfaces == Surfaces::Triangles),
+    command(
+        Display,
+        Action::Holes(Conceal::Raw),
+        "display.raw",
+        "Pin holes as they are",
+        &[code(KeyCode::F12).ctrl()],
+    )
+    .separated()
+    .checked(|s| s.holes == Conceal::Raw),
+    command(
+        Display,
+        Action::Holes(Conceal::Concealed),
+        "display.concealed",
+        "Pin holes concealed",
+        &[code(KeyCode::F12)],
+    )
+    .checked(|s| s.holes == Conceal::Concealed),
+    command(
+        Display,
+        Action::Holes(Conceal::Difference),
+        "display.difference",
+        "What is concealed",
+        &[code(KeyCode::F12).shift()],
+    )
+    .checked(|s| s.holes == Conceal::Difference),
     command(Display, Action::ToggleEdges, "display.edges", "Edges", &[key('e')])
         .separated()
         .checked(|s| s.edges),
@@ -359,6 +395,15 @@ const PLAIN: &[Command] = &[
         &[code(KeyCode::F10), key('k')],
     )
     .checked(|s| s.inspection),
+    command(
+        Inspect,
+        Action::TogglePinHoles,
+        "inspect.holes",
+        "Mark pin holes",
+        &[code(KeyCode::F10).shift()],
+    )
+    .checked(|s| s.pin_holes)
+    .when(with_inspection),
     command(Inspect, Action::NextDefect, "inspect.next", "Next defect", &[code(KeyCode::F11), key('.')])
         .separated()
         .when(with_inspection),

@@ -1,6 +1,7 @@
 //! The inspection panel: counts, the histogram of gaps with the tolerance, and the table of edges.
 
 mod histogram;
+mod holes;
 mod legend;
 mod measure;
 mod table;
@@ -14,7 +15,7 @@ use super::format::{count, plural};
 use super::icon::{self, Icon};
 use super::{Reads, Writes};
 use crate::editor::inspection::{
-    Chosen, Findings, InspectRequest, InspectionChoices, Probe, Progress, Rows, ramp,
+    Chosen, Findings, InspectRequest, InspectionChoices, PinHoles, Probe, Progress, Rows, ramp,
 };
 use crate::editor::theme::Palette;
 use crate::editor::tools::{Action, CommandRequest};
@@ -29,6 +30,7 @@ pub(super) struct InspectionState<'w> {
     rows: Res<'w, Rows>,
     chosen: Res<'w, Chosen>,
     probe: Res<'w, Probe>,
+    holes: Res<'w, PinHoles>,
     choices: ResMut<'w, InspectionChoices>,
     requests: MessageWriter<'w, InspectRequest>,
 }
@@ -73,6 +75,9 @@ pub(super) fn overlay(root: &Ui, rect: Rect, reads: &Reads, viewport: &Viewport,
     let painter = root.ctx().layer_painter(egui::LayerId::background()).with_clip_rect(rect);
     if state.choices.colours {
         legend::show(&painter, rect, &reads.palette);
+    }
+    if reads.settings.pin_holes {
+        holes::show(&painter, rect, reads, &state.holes);
     }
     measure::show(&painter, reads, viewport, state);
 }

@@ -1,0 +1,209 @@
+//! Pin holes of the picture at rest: the rays are read back, and the inspection proves what shows through.
+//!
+//! The copy of a complete picture is made once per view, mapped without waiting, and handed to the main world, where
+//! the exact faces and the gaps are.
+
+use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::{Arc, Mutex};
+
+use bevy::prelude::*;
+use bevy::render::renderer::{RenderContext, RenderDevice, ViewQuery};
+
+use super::faces::RenderFaces;
+use super::frame::FrameView;
+use super::model::ModelPass;
+use super::ribbons::RenderRibbons;
+use crate::editor::inspection::{Findings, PinHoles};
+use crate::editor::object::DerivedFace;
+use crate::editor::redraw::Waker;
+use crate::encoding::{Conceal, View};
+use crate::inspect::{EdgePairs, HoleScene, pin_holes};
+use crate::kernel::face::Face;
+use crate::kernel::view::Camera as ViewPoint;
+use crate::reference::cast::Fragment;
+use crate::reference::visibility::VisibilityBuffer;
+
+/// A picture read back.
+pub(super) struct Picture {
+    buffer: VisibilityBuffer,
+    view: View,
+    camera: ViewPoint,
+    /// Faces by slot.
+    faces: Vec<Option<Entity>>,
+}
+
+/// The latest picture, shared by both worlds.
+#[derive(Resource, Clone, Default)]
+pub(super) struct HolePictures(Arc<Mutex<Option<Picture>>>);
+
+const COPIED: u8 = 1;
+const MAPPING: u8 = 2;
+const MAPPED: u8 = 3;
+const FAILED: u8 = 4;
+
+struct Copies {
+    words: wgpu::Buffer,
+    depths: wgpu::Buffer,
+    size: [u32; 2],
+    view: View,
+    camera: ViewPoint,
+    /// One state per buffer.
+    states: [Arc<AtomicU8>; 2],
+}
+
+/// What decides which holes there are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct CopyKey {
+    camera: ViewPoint,
+    size: [u32; 2],
+    geometry: u64,
+    holes: Conceal,
+    ribbons: u64,
+}
+
+/// What is on its way.
+#[derive(Resource, Default)]
+pub(super) struct HoleReadback {
+    copies: Option<Copies>,
+    /// What was copied last.
+    copied: Option<CopyKey>,
+}
+
+fn padded(size: [u32; 2], pixel: u32) -> u32 {
+    (size[0] * pixel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)
+}
+
+/// Copies the first sample of a picture at rest, while holes are to be marked.
+pub(super) fn copy(
+    _view: ViewQuery<Entity, With<super::DrawsModel>>,
+    mut readback: ResMut<HoleReadback>,
+    model: Res<ModelPass>,
+    (faces, ribbons): (Res<RenderFaces>, Res<RenderRibbons>),
+    frame: Res<FrameView>,
+    device: Res<RenderDevice>,
+    waker: Res<Waker>,
+    mut ctx: RenderContext,
+) {
+    let Some((_, renderer)) = &model.renderer else { return };
+    let wanted = frame.settings.pin_holes && frame.settings.inspection && model.quality.is_full();
+    if !wanted || model.casts == 0 || readback.copies.is_some() || faces.is_waiting() {
+        return;
+    }
+    let targets = renderer.shown();
+    let size = targets.size;
+    let key = CopyKey {
+        camera: frame.camera,
+        size,
+        geometry: faces.geometry,
+        holes: frame.settings.holes,
+        ribbons: ribbons.revision,
+    };
+    if readback.copied == Some(key) {
+        return;
+    }
+    let copy = |ctx: &mut RenderContext, texture: &wgpu::Texture, pixel: u32| {
+        let buffer = device.wgpu_device().create_buffer(&wgpu::BufferDescriptor {
+            label: Some("pin holes"),
+            size: u64::from(padded(size, pixel)) * u64::from(size[1]),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(padded(size, pixel)),
+            rows_per_image: None,
+        };
+        ctx.command_encoder().copy_texture_to_buffer(
+            texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
+            texture.size(),
+        );
+        buffer
+    };
+    let words = copy(&mut ctx, &targets.visibility, 16);
+    let depths = copy(&mut ctx, &targets.depth, 4);
+    let states = std::array::from_fn(|_| Arc::new(AtomicU8::new(COPIED)));
+    let view = *renderer.view();
+    readback.copies = Some(Copies { words, depths, size, view, camera: frame.camera, states });
+    readback.copied = Some(key);
+    waker.wake();
+}
+
+/// After submission: starts mapping, and takes what has been mapped.
+pub(super) fn collect(
+    readback: Option<ResMut<HoleReadback>>,
+    pictures: Res<HolePictures>,
+    faces: Res<RenderFaces>,
+    device: Res<RenderDevice>,
+    waker: Res<Waker>,
+) {
+    let Some(mut readback) = readback else { return };
+    let Some(copies) = &readback.copies else { return };
+    for (buffer, state) in [&copies.words, &copies.depths].into_iter().zip(&copies.states) {
+        if state.load(Ordering::Acquire) == COPIED {
+            state.store(MAPPING, Ordering::Release);
+            let state = Arc::clone(state);
+            buffer.slice(..).map_async(wgpu::MapMode::Read, move |result| {
+                state.store(if result.is_ok() { MAPPED } else { FAILED }, Ordering::Release);
+            });
+        }
+    }
+    // Does not wait. A lost device is reported by Bevy.
+    let _ = device.wgpu_device().poll(wgpu::PollType::Poll);
+    let states = [0, 1].map(|k| copies.states[k].load(Ordering::Acquire));
+    if states.contains(&FAILED) {
+        readback.copies = None;
+    } else if states == [MAPPED; 2] {
+        let picture = read(copies, faces.entities_by_slot());
+        *pictures.0.lock().unwrap_or_else(|e| e.into_inner()) = Some(picture);
+        readback.copies = None;
+        waker.wake();
+    } else {
+        waker.wake_after(std::time::Duration::from_millis(4));
+    }
+}
+
+fn read(copies: &Copies, faces: &[Option<Entity>]) -> Picture {
+    let [width, height] = copies.size;
+    let (words, depths) =
+        (copies.words.slice(..).get_mapped_range(), copies.depths.slice(..).get_mapped_range());
+    let rows = words
+        .chunks_exact(padded(copies.size, 16) as usize)
+        .zip(depths.chunks_exact(padded(copies.size, 4) as usize));
+    let fragments = rows
+        .flat_map(|(words, depths)| words.chunks_exact(16).zip(depths.chunks_exact(4)).take(width as usize))
+        .map(|(words, depth)| Fragment {
+            words: bytemuck::pod_read_unaligned(words),
+            depth: bytemuck::pod_read_unaligned(depth),
+        })
+        .collect();
+    let buffer = VisibilityBuffer { width, height, fragments, counts: default() };
+    Picture { buffer, view: copies.view, camera: copies.camera, faces: faces.to_vec() }
+}
+
+/// In the main world: proves the holes of the latest picture.
+pub(super) fn prove(
+    pictures: Res<HolePictures>,
+    findings: Res<Findings>,
+    faces: Query<&DerivedFace>,
+    mut found: ResMut<PinHoles>,
+    mut last: Local<Option<(Picture, Option<u64>)>>,
+) {
+    if let Some(picture) = pictures.0.lock().unwrap_or_else(|e| e.into_inner()).take() {
+        *last = Some((picture, None));
+    }
+    let (Some((picture, proved)), Some(inspection)) = (last.as_mut(), findings.inspection()) else { return };
+    // Again when edges were measured meanwhile.
+    if proved.replace(findings.revision) == Some(findings.revision) {
+        return;
+    }
+    let pairs = EdgePairs::of(inspection);
+    let held: Vec<Option<Arc<Face>>> =
+        (0..inspection.face_count()).map(|k| faces.get(findings.face(k)?).ok()?.0.face.clone()).collect();
+    let face = |k: usize| held.get(k)?.as_deref();
+    let slot = |k: u32| findings.number((*picture.faces.get(k as usize)?)?);
+    let scene = HoleScene { inspection, pairs: &pairs, face: &face, face_of_slot: &slot };
+    found.holes = pin_holes(&scene, &picture.buffer, &picture.view, &picture.camera);
+    found.size = UVec2::new(picture.buffer.width, picture.buffer.height);
+    found.camera = Some(picture.camera);
+}
