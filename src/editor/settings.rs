@@ -31,9 +31,9 @@ pub enum DisplayMode {
 #[serde(rename_all = "lowercase")]
 pub enum Surfaces {
     /// Rays; triangles while the view moves and rays would have to be coarse.
-    #[default]
     Auto,
     /// Rays at the exact surfaces only.
+    #[default]
     Rays,
     /// Triangles only, trimmed exactly.
     Triangles,
@@ -122,7 +122,7 @@ impl Default for Settings {
             mode: DisplayMode::Shaded,
             holes: Conceal::Raw,
             pin_holes: true,
-            surfaces: Surfaces::Auto,
+            surfaces: Surfaces::Rays,
             edges: true,
             grid: true,
             light: false,
