@@ -142,8 +142,8 @@ impl Walker {
                 walk.steps[2] += usize::from(matches!(done, Ok(Some(_))));
                 self.update_all(&faces);
             }
-            _ => match self.operation().map(|o| o.perform(&self.scene)) {
-                Some(Ok(edit)) if !edit.is_empty() => {
+            _ => match self.operation().and_then(|o| o.perform(&self.scene).ok()) {
+                Some(edit) if !edit.is_empty() => {
                     walk.steps[0] += 1;
                     if edit.apply(&mut self.scene).is_ok() {
                         self.update_all(&edit.faces());
