@@ -36,7 +36,8 @@ pub struct GapEnd {
 pub struct Gap {
     /// Largest distance (model units).
     pub maximum: f64,
-    /// The largest distance is less than `maximum + error_bound`.
+    /// The largest distance is less than `maximum + error_bound`, as [`super::measure`] bounds it: what cubics
+    /// miss at the middles of intervals, with a margin of four, and rounding.
     pub error_bound: f64,
     /// Mean distance along the edge.
     pub mean: f64,

@@ -19,22 +19,10 @@ fn check(arguments: &[&str]) -> (i32, String, String) {
     (output.status.code().expect("no signal"), text(output.stdout), stderr)
 }
 
-/// A file of our own: a plane square with a hole, naked all round.
+/// A file of our own: plane squares, naked all round.
 fn own(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/models/data").join(name);
     path.to_str().unwrap().to_owned()
-}
-
-fn any_own() -> Vec<String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/models/data");
-    let mut names: Vec<String> = fs::read_dir(folder)
-        .unwrap()
-        .map(|e| e.unwrap().file_name().into_string().unwrap())
-        .filter(|n| n.ends_with(".igs"))
-        .collect();
-    names.sort();
-    names.truncate(2);
-    names.iter().map(|n| own(n)).collect()
 }
 
 /// All field names of a value, with their paths; array items count once.
@@ -82,7 +70,7 @@ fn every_field_is_in_the_description_and_has_its_type() {
 
 #[test]
 fn exit_codes_and_lines() {
-    let files = any_own();
+    let files = ["bounded_143_hole.igs", "bounded_143_senses.igs"].map(own);
     let [a, b] = [files[0].as_str(), files[1].as_str()];
     let folder = tempfile::tempdir().unwrap();
     let missing = folder.path().join("missing.igs");
@@ -134,8 +122,8 @@ fn the_page_holds_everything_it_shows() {
     }
 }
 
-/// (file, shared, naked, seams, largest gap to 1 % in mm): figures that shall not change unnoticed.
-const FIGURES: [(&str, usize, usize); 1] = [("gpucast_part.igs", 300, 46)];
+/// (file, shared, naked): figures that shall not change unnoticed.
+const FIGURES: [(&str, usize, usize); 1] = [("gpucast_part.igs", 300, 48)];
 
 #[test]
 fn figures_of_real_models_are_stable() {
