@@ -7,7 +7,6 @@
 
 #![expect(
     clippy::too_many_arguments,
-    clippy::type_complexity,
     reason = "systems state what they read and write in their parameters"
 )]
 
