@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use ruzstd::decoding::StreamingDecoder;
 use serde::de::DeserializeOwned;
 
-use super::spans::{self, Broken, Member};
+use super::spans::{self, Broken, Member, Outline};
 use super::{FORMAT, ZSTANDARD, migration};
 use crate::scene::document::SceneRecord;
 use crate::scene::records::{FaceRecord, ModelRecord};
@@ -93,13 +93,12 @@ fn unpack(mut bytes: &[u8]) -> Result<Vec<u8>, ReadError> {
 
 /// The scene of a text in this or an older format.
 pub(super) fn from_text(text: &str) -> Result<SceneRecord, ReadError> {
-    let all = spans::members(text, 0..text.len());
-    // A file cut short is known by its first line.
-    let head = match &all {
-        Ok(members) => members.clone(),
-        Err(_) => head(text),
-    };
-    let of = |key: &str| head.iter().find(|m| m.key == key).map(|m| &text[m.value.clone()]);
+    // The first line tells what it is, also of a file cut short; other layouts are read as a whole.
+    let mut first = head(text);
+    if !first.iter().any(|m| m.key == "version") {
+        first = spans::members(text, 0..text.len()).unwrap_or(first);
+    }
+    let of = |key: &str| first.iter().find(|m| m.key == key).map(|m| &text[m.value.clone()]);
     if of("hairline") != Some("\"scene\"") {
         return Err(ReadError::NotAScene { reason: "it does not begin with {\"hairline\":\"scene\"".into() });
     }
@@ -110,13 +109,11 @@ pub(super) fn from_text(text: &str) -> Result<SceneRecord, ReadError> {
         let program = of("program").unwrap_or("unknown").trim_matches('"').to_owned();
         return Err(ReadError::Newer { version, program });
     }
-    let members = all.map_err(|broken| of_broken(text, broken))?;
     if version < FORMAT {
-        return from_text(
-            &migration::migrated(text, version).map_err(|e| of_serde(text, &(0..text.len()), &e))?,
-        );
+        let migrated = migration::migrated(text, version);
+        return from_text(&migrated.map_err(|e| of_serde(text, &(0..text.len()), &e))?);
     }
-    scene(text, members)
+    scene(text, spans::outline(text).map_err(|broken| of_broken(text, broken))?)
 }
 
 /// What can be told of the beginning of a broken text.
@@ -143,7 +140,8 @@ fn head(text: &str) -> Vec<Member<'_>> {
         .unwrap_or_default()
 }
 
-fn scene(text: &str, members: Vec<Member>) -> Result<SceneRecord, ReadError> {
+fn scene(text: &str, outline: Outline) -> Result<SceneRecord, ReadError> {
+    let Outline { members, models } = outline;
     let mut scene = SceneRecord::default();
     let mut seen: Vec<&str> = Vec::new();
     for Member { key, value } in members {
@@ -154,30 +152,29 @@ fn scene(text: &str, members: Vec<Member>) -> Result<SceneRecord, ReadError> {
             "views" => scene.views = parse(text, &value)?,
             "display" => scene.display = parse(text, &value)?,
             "hidden" => scene.hidden = parse(text, &value)?,
-            "models" => {
-                let models = spans::elements(text, value).map_err(|e| of_broken(text, e))?;
-                scene.models = models.into_iter().map(|m| model(text, m)).collect::<Result<_, _>>()?;
-            }
+            // Read below.
+            "models" => {}
             _ => return Err(unknown(text, key, &value)),
         }
     }
+    scene.models =
+        models.into_iter().map(|(members, faces)| model(text, members, &faces)).collect::<Result<_, _>>()?;
     Ok(scene)
 }
 
-fn model(text: &str, range: Range<usize>) -> Result<ModelRecord, ReadError> {
+fn model(text: &str, members: Vec<Member>, faces: &[Range<usize>]) -> Result<ModelRecord, ReadError> {
     let mut model = ModelRecord::default();
     let mut seen: Vec<&str> = Vec::new();
-    for Member { key, value } in spans::members(text, range).map_err(|e| of_broken(text, e))? {
+    for Member { key, value } in members {
         once(text, &mut seen, key, &value)?;
         match key {
             "name" => model.name = parse(text, &value)?,
             "unit" => model.unit = parse(text, &value)?,
             "parts" => model.parts = parse(text, &value)?,
             "faces" => {
-                let faces = spans::elements(text, value).map_err(|e| of_broken(text, e))?;
-                let faces: Result<Vec<FaceRecord>, _> =
+                let read: Result<Vec<FaceRecord>, _> =
                     faces.par_iter().with_min_len(32).map(|f| parse(text, f)).collect();
-                model.faces = faces?;
+                model.faces = read?;
             }
             _ => return Err(unknown(text, key, &value)),
         }

@@ -24,10 +24,59 @@ pub struct Member<'t> {
     pub value: Range<usize>,
 }
 
+/// A scene's text in outline, found in one pass.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Outline<'t> {
+    /// Members of the scene, `models` among them.
+    pub members: Vec<Member<'t>>,
+    /// Members of each model, `faces` among them, and its faces.
+    pub models: Vec<(Vec<Member<'t>>, Vec<Range<usize>>)>,
+}
+
 struct Scanner<'t> {
     text: &'t str,
     at: usize,
     end: usize,
+}
+
+/// The outline of a whole scene.
+///
+/// # Errors
+/// It is no object, `models` or `faces` no array, or brackets do not match.
+pub fn outline(text: &str) -> Result<Outline<'_>, Broken> {
+    let mut scanner = Scanner { text, at: 0, end: text.len() };
+    let mut outline = Outline::default();
+    let models = &mut outline.models;
+    let members = &mut outline.members;
+    scanner.members(&mut |scanner, key| {
+        let start = scanner.at;
+        if key == "models" {
+            scanner.elements(&mut |scanner| {
+                let (mut members, mut faces) = (Vec::new(), Vec::new());
+                scanner.members(&mut |scanner, key| {
+                    let start = scanner.at;
+                    if key == "faces" {
+                        scanner.elements(&mut |scanner| {
+                            faces.push(scanner.value()?);
+                            Ok(())
+                        })?;
+                    } else {
+                        scanner.value()?;
+                    }
+                    members.push(Member { key, value: start..scanner.at });
+                    Ok(())
+                })?;
+                models.push((members, faces));
+                Ok(())
+            })?;
+        } else {
+            scanner.value()?;
+        }
+        members.push(Member { key, value: start..scanner.at });
+        Ok(())
+    })?;
+    scanner.finish()?;
+    Ok(outline)
 }
 
 /// The members of the object at `range` of `text`.
@@ -37,13 +86,11 @@ struct Scanner<'t> {
 pub fn members<'t>(text: &'t str, range: Range<usize>) -> Result<Vec<Member<'t>>, Broken> {
     let mut scanner = Scanner { text, at: range.start, end: range.end };
     let mut members = Vec::new();
-    scanner.list(b'{', b'}', "an object", |scanner| {
-        let key = scanner.string()?;
-        scanner.expect(b':', "`:`")?;
-        let value = scanner.value()?;
-        members.push(Member { key: &text[key.start + 1..key.end - 1], value });
+    scanner.members(&mut |scanner, key| {
+        members.push(Member { key, value: scanner.value()? });
         Ok(())
     })?;
+    scanner.finish()?;
     Ok(members)
 }
 
@@ -54,10 +101,11 @@ pub fn members<'t>(text: &'t str, range: Range<usize>) -> Result<Vec<Member<'t>>
 pub fn elements(text: &str, range: Range<usize>) -> Result<Vec<Range<usize>>, Broken> {
     let mut scanner = Scanner { text, at: range.start, end: range.end };
     let mut elements = Vec::new();
-    scanner.list(b'[', b']', "an array", |scanner| {
+    scanner.elements(&mut |scanner| {
         elements.push(scanner.value()?);
         Ok(())
     })?;
+    scanner.finish()?;
     Ok(elements)
 }
 
@@ -101,7 +149,7 @@ pub fn path_at(text: &str, at: usize) -> String {
     path
 }
 
-impl Scanner<'_> {
+impl<'t> Scanner<'t> {
     fn peek(&self) -> Option<u8> {
         self.text.as_bytes().get(self.at).copied().filter(|_| self.at < self.end)
     }
@@ -126,33 +174,55 @@ impl Scanner<'_> {
         Ok(())
     }
 
+    /// Nothing but blanks may follow.
+    fn finish(&mut self) -> Result<(), Broken> {
+        self.blank();
+        if self.at < self.end { self.broken("the end") } else { Ok(()) }
+    }
+
+    /// An object; `member` is called at the beginning of each value and reads it.
+    fn members(
+        &mut self,
+        member: &mut dyn FnMut(&mut Self, &'t str) -> Result<(), Broken>,
+    ) -> Result<(), Broken> {
+        let text = self.text;
+        self.list(b'{', b'}', ["an object", "`,` or `}`"], &mut |scanner| {
+            let key = scanner.string()?;
+            scanner.expect(b':', "`:`")?;
+            member(scanner, &text[key.start + 1..key.end - 1])
+        })
+    }
+
+    /// An array; `element` is called at the beginning of each element and reads it.
+    fn elements(&mut self, element: &mut dyn FnMut(&mut Self) -> Result<(), Broken>) -> Result<(), Broken> {
+        self.list(b'[', b']', ["an array", "`,` or `]`"], element)
+    }
+
     fn list(
         &mut self,
         open: u8,
         close: u8,
-        what: &'static str,
-        mut item: impl FnMut(&mut Self) -> Result<(), Broken>,
+        [what, separator]: [&'static str; 2],
+        item: &mut dyn FnMut(&mut Self) -> Result<(), Broken>,
     ) -> Result<(), Broken> {
         self.expect(open, what)?;
         if self.peek() == Some(close) {
             self.at += 1;
-        } else {
-            loop {
-                item(self)?;
-                self.blank();
-                match self.peek() {
-                    Some(b',') => self.at += 1,
-                    Some(b) if b == close => {
-                        self.at += 1;
-                        break;
-                    }
-                    _ => return self.broken(if close == b'}' { "`,` or `}`" } else { "`,` or `]`" }),
-                }
-                self.blank();
-            }
+            return Ok(());
         }
-        self.blank();
-        if self.at < self.end { self.broken("the end") } else { Ok(()) }
+        loop {
+            item(self)?;
+            self.blank();
+            match self.peek() {
+                Some(b',') => self.at += 1,
+                Some(b) if b == close => {
+                    self.at += 1;
+                    return Ok(());
+                }
+                _ => return self.broken(separator),
+            }
+            self.blank();
+        }
     }
 
     fn string(&mut self) -> Result<Range<usize>, Broken> {
@@ -173,35 +243,38 @@ impl Scanner<'_> {
         Ok(start..self.at)
     }
 
+    /// Passes over one value: a text, a number or a word up to the next mark, or brackets up to their match.
     fn value(&mut self) -> Result<Range<usize>, Broken> {
         let start = self.at;
-        let mut depth = 0usize;
-        loop {
-            match self.peek() {
-                Some(b'"') => {
-                    self.string()?;
-                }
-                Some(b'{' | b'[') => {
-                    depth += 1;
+        match self.peek() {
+            Some(b'"') => return self.string(),
+            Some(b'{' | b'[') => {}
+            Some(b',' | b':' | b'}' | b']') | None => return self.broken("a value"),
+            Some(_) => {
+                while self.peek().is_some_and(|b| !b",:]}[{\" \n\r\t".contains(&b)) {
                     self.at += 1;
                 }
-                Some(b'}' | b']') if depth > 0 => {
-                    depth -= 1;
-                    self.at += 1;
-                }
-                Some(b',' | b':' | b'\n' | b' ' | b'\r' | b'\t') if depth > 0 => self.at += 1,
-                Some(b',' | b'}' | b']' | b':') | None if depth == 0 => return self.broken("a value"),
-                None => return self.broken("more: the text ends in the middle"),
-                Some(_) => {
-                    while self.peek().is_some_and(|b| !b",:]}[{\" \n\r\t".contains(&b)) {
-                        self.at += 1;
-                    }
-                }
+                return Ok(start..self.at);
             }
+        }
+        let bytes = &self.text.as_bytes()[..self.end];
+        let mut depth = 0usize;
+        while let Some(byte) = bytes.get(self.at) {
+            match byte {
+                b'"' => {
+                    self.string()?;
+                    continue;
+                }
+                b'{' | b'[' => depth += 1,
+                b'}' | b']' => depth -= 1,
+                _ => {}
+            }
+            self.at += 1;
             if depth == 0 {
                 return Ok(start..self.at);
             }
         }
+        self.broken("more: the text ends in the middle")
     }
 }
 
