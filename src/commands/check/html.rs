@@ -32,19 +32,19 @@ pub(super) fn page(outcomes: &[Outcome]) -> String {
             Outcome::Checked { report, pictures } => section(&mut out, report, pictures),
             Outcome::Unreadable { file, reason } => {
                 let (file, reason) = (escaped(file), escaped(reason));
-                let _ = write!(
+                let _ = writeln!(
                     out,
                     "<section><header><h1>{file}</h1><span class=\"verdict fail\">not checked</span></header>\
-                     <p class=\"panel error\">{reason}</p></section>\n"
+                     <p class=\"panel error\">{reason}</p></section>"
                 );
             }
         }
     }
-    let _ = write!(
+    let _ = writeln!(
         out,
         "<footer>Made by hairline {}. Gaps are distances between the exact curves in space on either side of an edge; \
          no triangles are involved. Faces, loops and curves are numbered from 1 in the order of the file.</footer>\n\
-         </main>\n<script>\n{}</script></body></html>\n",
+         </main>\n<script>\n{}</script></body></html>",
         env!("CARGO_PKG_VERSION"),
         include_str!("page.js")
     );
@@ -74,10 +74,10 @@ fn length(mm: f64) -> String {
 
 fn section(out: &mut String, report: &Report, pictures: &[Picture]) {
     let (class, word) = if report.passes { ("pass", "passes") } else { ("fail", "fails") };
-    let _ = write!(
+    let _ = writeln!(
         out,
         "<section><header><h1>{}</h1><span class=\"verdict {class}\">{word} at {}</span></header>\n\
-         <p class=\"note\">{} &middot; {} faces &middot; {} across &middot; file in {}{}</p>\n",
+         <p class=\"note\">{} &middot; {} faces &middot; {} across &middot; file in {}{}</p>",
         escaped(&report.model),
         length(report.tolerance_mm),
         escaped(&report.file),
@@ -92,9 +92,9 @@ fn section(out: &mut String, report: &Report, pictures: &[Picture]) {
     );
     cards(out, report);
     if report.gaps.count > 0 {
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "<h2>How large the gaps are</h2><div class=\"panel\">{}</div>\n",
+            "<h2>How large the gaps are</h2><div class=\"panel\">{}</div>",
             histogram::svg(report)
         );
     }
@@ -132,11 +132,11 @@ fn figure(out: &mut String, rank: usize, finding: &Finding, picture: &Picture) {
     let Some(gap) = &finding.gap else { return };
     let [width, height] = SIZE;
     let p = gap.between[0].point_mm;
-    let _ = write!(
+    let _ = writeln!(
         out,
         "<figure><div class=\"frame\"><img width=\"{width}\" height=\"{height}\" alt=\"Gap {rank}: {} between faces {}\" \
          src=\"data:image/png;base64,{}\">{}</div>\
-         <figcaption><b>{rank}. {} {}</b> &middot; faces {}<br>mean {}, edge {} long, angle {:.2}&deg;<br>at {:.4}, {:.4}, {:.4} mm</figcaption></figure>\n",
+         <figcaption><b>{rank}. {} {}</b> &middot; faces {}<br>mean {}, edge {} long, angle {:.2}&deg;<br>at {:.4}, {:.4}, {:.4} mm</figcaption></figure>",
         length(gap.maximum_mm),
         faces(finding),
         base64(&picture.png),
@@ -224,7 +224,7 @@ fn table(out: &mut String, report: &Report) {
     }
     out.push_str("</tbody></table></div>\n");
     if report.findings.len() > ROWS {
-        let _ = write!(out, "<p class=\"note\">{} more are in the JSON.</p>\n", report.findings.len() - ROWS);
+        let _ = writeln!(out, "<p class=\"note\">{} more are in the JSON.</p>", report.findings.len() - ROWS);
     }
 }
 
@@ -255,9 +255,9 @@ fn row(out: &mut String, finding: &Finding) {
         let p = g.between[0].point_mm;
         format!("{:.4}, {:.4}, {:.4}", p.x, p.y, p.z)
     });
-    let _ = write!(
+    let _ = writeln!(
         out,
-        "<td data-key=\"{}\">{}</td><td class=\"text\" title=\"{}\">{}</td><td class=\"text\">{}</td><td class=\"text\">{at}</td></tr>\n",
+        "<td data-key=\"{}\">{}</td><td class=\"text\" title=\"{}\">{}</td><td class=\"text\">{}</td><td class=\"text\">{at}</td></tr>",
         finding.length_mm,
         length(finding.length_mm),
         names.join(", "),
