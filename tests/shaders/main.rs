@@ -4,6 +4,9 @@
 mod bands;
 mod edits;
 mod exact_edges;
+mod holes;
 mod modules;
 mod oracle;
 mod pictures;
+
+mod triangles;
