@@ -141,7 +141,7 @@ fn draw_span(
             _ => 0.0,
         };
         let corner =
-            |side: f32| place(view, at.p, DVec2::from((sideways * side + direction * end).as_dvec2()));
+            |side: f32| place(view, at.p, (sideways * side + direction * end).as_dvec2());
         Rung { at, placed: [corner(-reach), corner(reach)], sideways, reach }
     };
     let mut last = rung(0);

@@ -21,7 +21,6 @@ pub mod one {
     ///
     /// # Errors
     /// The serializer's.
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde's signature")]
     pub fn serialize<S: Serializer>(at: &usize, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_u64(*at as u64 + 1)
     }

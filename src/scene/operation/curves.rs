@@ -15,7 +15,7 @@ const EXACT: f64 = 1e-12;
 /// Largest change of shape allowed: the one asked for, else what counts as exact for the face.
 fn tolerance(subject: &Subject, id: CurveId, asked: Option<f64>) -> Result<f64, OperationError> {
     match asked {
-        Some(value) if value == 0.0 => Ok(0.0),
+        Some(0.0) => Ok(0.0),
         Some(value) => limits::positive(subject.place(id), "tolerance", value),
         None => Ok(EXACT * subject.view.domain().size().max_element()),
     }
