@@ -5,10 +5,7 @@
 //! upload, passes). `panels` read state and write messages; `tools` is the table of commands that menus, keys
 //! and toolbar are made from; `selection`, `camera` and `settings` serve them. `render` knows nothing of files.
 
-#![expect(
-    clippy::too_many_arguments,
-    reason = "systems state what they read and write in their parameters"
-)]
+#![expect(clippy::too_many_arguments, reason = "systems state what they read and write in their parameters")]
 
 pub mod camera;
 pub mod derive;

@@ -1,7 +1,7 @@
 //! Points of trim curves in space, and fat lines along them. Twin of `shaders/lib/ribbon.wgsl` and
 //! `shaders/pass/conceal.wgsl`.
 
-use glam::{DVec2, Vec2, Vec3, Vec3Swizzles, Vec4Swizzles};
+use glam::{Vec2, Vec3, Vec3Swizzles, Vec4Swizzles};
 
 use super::cast::{Fragment, view_axes};
 use super::holes::{Neighbourhood, REACH, z_of};
@@ -140,8 +140,7 @@ fn draw_span(
             SEGMENTS => reach,
             _ => 0.0,
         };
-        let corner =
-            |side: f32| place(view, at.p, (sideways * side + direction * end).as_dvec2());
+        let corner = |side: f32| place(view, at.p, (sideways * side + direction * end).as_dvec2());
         Rung { at, placed: [corner(-reach), corner(reach)], sideways, reach }
     };
     let mut last = rung(0);

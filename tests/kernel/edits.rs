@@ -31,7 +31,7 @@ fn with_point(curve: &NurbsCurve2, at: usize, by: DVec2) -> NurbsCurve2 {
 }
 
 /// One random edit of the loops.
-fn edit(loops: &mut Vec<LoopRecord>, random: &mut Random) {
+fn edit(loops: &mut [LoopRecord], random: &mut Random) {
     let pick = |n: usize, random: &mut Random| (random.bits() % n.max(1) as u64) as usize;
     let index = pick(loops.len(), random);
     let curves = &mut loops[index].curves;

@@ -45,7 +45,10 @@ fn different_splits_and_t_junctions_are_matched_part_by_part() {
             .flat_map(|c| {
                 let (a, b) = c.domain();
                 let stops: Vec<f64> = [0.0].iter().chain(at).chain(&[1.0]).map(|s| a + (b - a) * s).collect();
-                stops.windows(2).map(|w| c.restricted(w[0], w[1]).unwrap()).collect::<Vec<_>>()
+                stops
+                    .windows(2)
+                    .map(|w| c.restricted(w[0], w[1]).expect("valid test data"))
+                    .collect::<Vec<_>>()
             })
             .collect();
         face.loops[0].curves = curves;
@@ -86,7 +89,8 @@ fn a_face_between_two_is_a_t_junction() {
 #[test]
 fn closed_surfaces_have_seams_and_poles() {
     let half = arc(DVec3::ZERO, DVec3::X, DVec3::Z, -0.5 * std::f64::consts::PI, 0.5 * std::f64::consts::PI);
-    let ball = revolution(&half.unwrap(), DVec3::ZERO, DVec3::Z, 0.0, std::f64::consts::TAU).unwrap();
+    let ball = revolution(&half.expect("valid test data"), DVec3::ZERO, DVec3::Z, 0.0, std::f64::consts::TAU)
+        .expect("valid test data");
     let inspection = Inspection::of(&[face(ball, vec![])]);
     let count = |kind| of_kind(&inspection, kind).len();
     assert_eq!(
@@ -100,7 +104,11 @@ fn closed_surfaces_have_seams_and_poles() {
     let halves = [(0.0, 3.0), (3.0, std::f64::consts::TAU)].map(|(from, to)| {
         let half =
             arc(DVec3::ZERO, DVec3::X, DVec3::Z, -0.5 * std::f64::consts::PI, 0.5 * std::f64::consts::PI);
-        face(revolution(&half.unwrap(), DVec3::ZERO, DVec3::Z, from, to).unwrap(), vec![])
+        face(
+            revolution(&half.expect("valid test data"), DVec3::ZERO, DVec3::Z, from, to)
+                .expect("valid test data"),
+            vec![],
+        )
     });
     let inspection = Inspection::of(&halves);
     let count = |kind| of_kind(&inspection, kind).len();
@@ -119,7 +127,7 @@ fn circles_that_start_elsewhere_are_matched_in_two_parts() {
             0.0,
             std::f64::consts::TAU,
         );
-        curve.unwrap().map_points(DVec3::truncate)
+        curve.expect("valid test data").map_points(DVec3::truncate)
     };
     let outside = face(plane(50.0, 0.0), vec![rectangle([0.0, 0.0], [1.0, 1.0]), vec![circle(0.3)]]);
     let inside = face(plane(50.0, 0.0), vec![vec![circle(2.0)]]);
@@ -129,7 +137,7 @@ fn circles_that_start_elsewhere_are_matched_in_two_parts() {
     let length: f64 = shared.iter().map(|e| e.length()).sum();
     assert_eq!(shared.len(), 2);
     assert!((length - 20.0 * std::f64::consts::PI).abs() < 1e-6);
-    let gap = shared[0].gap.unwrap();
+    let gap = shared[0].gap.expect("valid test data");
     assert!(gap.angle < 1e-6, "the disc lies in the hole, not on the plate: {}", gap.angle);
 }
 
@@ -143,7 +151,7 @@ fn a_fold_has_its_angle() {
     let inspection = Inspection::of(&[floor, wall]);
     let shared = of_kind(&inspection, EdgeKind::Shared);
     assert_eq!(shared.len(), 1);
-    let angle = shared[0].gap.unwrap().angle.to_degrees();
+    let angle = shared[0].gap.expect("valid test data").angle.to_degrees();
     assert!((angle - 60.0).abs() < 1e-9, "{angle}");
 }
 

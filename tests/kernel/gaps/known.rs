@@ -87,13 +87,13 @@ fn bumps_in_a_pcurve_have_their_height_and_mean() {
             let top = 0.5 + height;
             let lower = face(plane(50.0, 0.0), vec![rectangle([0.0, 0.0], [1.0, 0.5])]);
             let parabola = NurbsCurve2::new(
-                KnotVector::bezier(2, 0.0, 1.0).unwrap(),
+                KnotVector::bezier(2, 0.0, 1.0).expect("valid test data"),
                 // The middle control point lies twice as high as the curve.
                 vec![DVec2::new(0.0, 0.5), DVec2::new(0.5, 2.0 * top - 0.5), DVec2::new(1.0, 0.5)],
                 vec![1.0; 3],
             );
             let mut curves = rectangle([0.0, 0.5], [1.0, 1.0]);
-            curves[0] = parabola.unwrap();
+            curves[0] = parabola.expect("valid test data");
             let what = format!("bump {size} {place}");
             let found = gap(&[lower, face(plane(50.0, 0.0), vec![curves])], &what);
             assert_gap(&found, size, &what);
@@ -113,10 +113,11 @@ fn a_narrow_bump_on_a_free_form_surface_is_found() {
         let [left, mut right] = divided(&surface, 0);
         let base = &right.loops[0].curves[3];
         let fine: Vec<f64> = (1..20).map(|k| f64::from(k) / 20.0).collect();
-        let fine = base.inserted(&fine).unwrap();
+        let fine = base.inserted(&fine).expect("valid test data");
         let mut points = fine.points().to_vec();
         points[11].x += size;
-        let pushed = NurbsCurve2::new(fine.knots().clone(), points, fine.weights().to_vec()).unwrap();
+        let pushed =
+            NurbsCurve2::new(fine.knots().clone(), points, fine.weights().to_vec()).expect("valid test data");
         let lift = |c: &NurbsCurve2, t: f64| {
             let uv = c.point(t);
             surface.point(uv.x, uv.y)

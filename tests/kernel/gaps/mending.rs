@@ -27,7 +27,7 @@ fn mend(faces: &[FaceRecord], side: Option<usize>) -> f64 {
     let edge = shared(faces);
     let mended = close(faces, &edge, &options(side)).expect("it can be closed");
     assert!(mended.before > TOLERANCE && mended.after <= TOLERANCE, "{mended:?}");
-    assert!((mended.before - edge.gap.unwrap().maximum).abs() <= 1e-3 * mended.before);
+    assert!((mended.before - edge.gap.expect("valid test data").maximum).abs() <= 1e-3 * mended.before);
     let model = ModelRecord { faces: faces.to_vec(), ..ModelRecord::default() };
     let before = SceneRecord { models: vec![model], ..SceneRecord::default() };
     let mut scene = before.clone();
@@ -41,7 +41,7 @@ fn mend(faces: &[FaceRecord], side: Option<usize>) -> f64 {
             assert!((end(this, true) - end(next, false)).length() < 1e-14, "curve {k} is joined to the next");
         }
     }
-    let after = shared(&scene.models[0].faces).gap.unwrap().maximum;
+    let after = shared(&scene.models[0].faces).gap.expect("valid test data").maximum;
     assert!((after - mended.after).abs() <= 1e-3 * after + 1e-12, "{after} as said: {}", mended.after);
     mended.edit.inverse().apply(&mut scene).expect("it can be taken back");
     assert_eq!(scene, before);
@@ -56,8 +56,8 @@ fn a_bump_is_flattened_from_either_side() {
         let curve = &right.loops[0].curves[3];
         let mut points = curve.points().to_vec();
         points[2] += DVec2::new(size / 40.0, 0.1 * size / 40.0);
-        right.loops[0].curves[3] =
-            NurbsCurve2::new(curve.knots().clone(), points, curve.weights().to_vec()).unwrap();
+        right.loops[0].curves[3] = NurbsCurve2::new(curve.knots().clone(), points, curve.weights().to_vec())
+            .expect("valid test data");
         let faces = [left, right];
         for side in [None, Some(0), Some(1)] {
             assert!(mend(&faces, side) <= TOLERANCE);
@@ -71,9 +71,12 @@ fn a_straight_side_follows_a_curved_one() {
     let lower = face(plane(50.0, 0.0), vec![rectangle([0.0, 0.0], [1.0, 0.5])]);
     let mut curves = rectangle([0.0, 0.5], [1.0, 1.0]);
     let points = [(0.0, 0.5005), (0.3, 0.5025), (0.6, 0.498), (1.0, 0.5003)].map(DVec2::from);
-    curves[0] =
-        NurbsCurve2::new(KnotVector::bezier(3, 0.0, 1.0).unwrap(), points.to_vec(), vec![1.0, 2.0, 1.0, 1.0])
-            .unwrap();
+    curves[0] = NurbsCurve2::new(
+        KnotVector::bezier(3, 0.0, 1.0).expect("valid test data"),
+        points.to_vec(),
+        vec![1.0, 2.0, 1.0, 1.0],
+    )
+    .expect("valid test data");
     curves[1] = NurbsCurve2::line(points[3], DVec2::new(1.0, 1.0));
     curves[3] = NurbsCurve2::line(DVec2::new(0.0, 1.0), points[0]);
     let faces = [lower, face(plane(50.0, 0.0), vec![curves])];

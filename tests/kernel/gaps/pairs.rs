@@ -24,21 +24,23 @@ pub fn face(surface: NurbsSurface, loops: Vec<Vec<NurbsCurve2>>) -> FaceRecord {
 
 /// A quarter of a cylinder of `radius` about z, from height `low` to `high`. u is around, v is up.
 pub fn cylinder(radius: f64, low: f64, high: f64) -> NurbsSurface {
-    let circle = arc(DVec3::Z * low, DVec3::X * radius, DVec3::Y * radius, 0.0, 1.5).unwrap();
-    extrusion(&circle, DVec3::Z * (high - low)).unwrap()
+    let circle =
+        arc(DVec3::Z * low, DVec3::X * radius, DVec3::Y * radius, 0.0, 1.5).expect("valid test data");
+    extrusion(&circle, DVec3::Z * (high - low)).expect("valid test data")
 }
 
 /// Part of a ball of `radius` between two latitudes. u is around, v is up.
 pub fn ball(radius: f64, low: f64, high: f64) -> NurbsSurface {
-    let meridian = arc(DVec3::ZERO, DVec3::X * radius, DVec3::Z * radius, low, high).unwrap();
-    revolution(&meridian, DVec3::ZERO, DVec3::Z, 0.0, 1.5).unwrap()
+    let meridian =
+        arc(DVec3::ZERO, DVec3::X * radius, DVec3::Z * radius, low, high).expect("valid test data");
+    revolution(&meridian, DVec3::ZERO, DVec3::Z, 0.0, 1.5).expect("valid test data")
 }
 
 /// A free-form rational surface over the unit square, about 40 x 40 x 8.
 pub fn hills(seed: u32) -> NurbsSurface {
     let knots = |inner: &[f64]| {
         let all = [0.0; 4].into_iter().chain(inner.iter().copied()).chain([1.0; 4]).collect();
-        KnotVector::new(3, all).unwrap()
+        KnotVector::new(3, all).expect("valid test data")
     };
     let (ku, kv) = (knots(&[0.3, 0.7]), knots(&[0.45]));
     let (nu, nv) = (ku.control_count(), kv.control_count());
@@ -51,23 +53,28 @@ pub fn hills(seed: u32) -> NurbsSurface {
         })
         .collect();
     let weights = (0..nu * nv).map(|k| 1.0 + 0.6 * (1.7 * wave(k)).cos()).collect();
-    NurbsSurface::new(ku, kv, points, weights).unwrap()
+    NurbsSurface::new(ku, kv, points, weights).expect("valid test data")
 }
 
 /// The same surface written otherwise: bit 0 exchanges u and v, bit 1 raises degrees, bit 2 inserts knots.
 pub fn rewritten(surface: &NurbsSurface, how: u32) -> NurbsSurface {
     let mut result = surface.clone();
     if how & 2 != 0 {
-        result = result.elevated(Direction::U, 1).unwrap().elevated(Direction::V, 2).unwrap();
+        result = result
+            .elevated(Direction::U, 1)
+            .expect("valid test data")
+            .elevated(Direction::V, 2)
+            .expect("valid test data");
     }
     if how & 4 != 0 {
         let inside = |d: Direction, s: f64| {
             let (a, b) = surface.knots(d).domain();
             a + (b - a) * s
         };
-        result =
-            result.inserted(Direction::U, &[inside(Direction::U, 0.123), inside(Direction::U, 0.8)]).unwrap();
-        result = result.inserted(Direction::V, &[inside(Direction::V, 0.61)]).unwrap();
+        result = result
+            .inserted(Direction::U, &[inside(Direction::U, 0.123), inside(Direction::U, 0.8)])
+            .expect("valid test data");
+        result = result.inserted(Direction::V, &[inside(Direction::V, 0.61)]).expect("valid test data");
     }
     if how & 1 != 0 { result.transposed() } else { result }
 }
@@ -80,21 +87,24 @@ pub fn rewritten_curve(curve: &NurbsCurve2, how: u32) -> NurbsCurve2 {
         result = result.map_points(|p| DVec2::new(p.y, p.x));
     }
     if how & 2 != 0 {
-        result = result.elevated(2).unwrap();
+        result = result.elevated(2).expect("valid test data");
     }
     if how & 4 != 0 {
         let (a, b) = result.domain();
-        result = result.inserted(&[a + 0.37 * (b - a), a + 0.37 * (b - a), a + 0.9 * (b - a)]).unwrap();
+        result = result
+            .inserted(&[a + 0.37 * (b - a), a + 0.37 * (b - a), a + 0.9 * (b - a)])
+            .expect("valid test data");
     }
     if how & 8 != 0 { result.reversed() } else { result }
 }
 
 /// A wavy curve across the unit square from its lower to its upper side.
 pub fn divide() -> NurbsCurve2 {
-    let knots = KnotVector::new(3, vec![0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 1.0]).unwrap();
+    let knots =
+        KnotVector::new(3, vec![0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 1.0]).expect("valid test data");
     let points =
         [(0.5, 0.0), (0.35, 0.2), (0.7, 0.5), (0.4, 0.8), (0.55, 1.0)].map(|(u, v)| DVec2::new(u, v));
-    NurbsCurve2::new(knots, points.to_vec(), vec![1.0, 1.4, 0.7, 1.2, 1.0]).unwrap()
+    NurbsCurve2::new(knots, points.to_vec(), vec![1.0, 1.4, 0.7, 1.2, 1.0]).expect("valid test data")
 }
 
 /// Two faces on the same surface over the unit square, left and right of [`divide`]; the second is written as `how`
@@ -153,8 +163,8 @@ pub fn rectangle(min: [f64; 2], max: [f64; 2]) -> Vec<NurbsCurve2> {
 
 /// The plane z = `height` over the parameters 0..1 times `size`.
 pub fn plane(size: f64, height: f64) -> NurbsSurface {
-    let knots = KnotVector::bezier(1, 0.0, 1.0).unwrap();
+    let knots = KnotVector::bezier(1, 0.0, 1.0).expect("valid test data");
     let points = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)];
     let points = points.map(|(x, y)| DVec3::new(x * size, y * size, height)).to_vec();
-    NurbsSurface::new(knots.clone(), knots, points, vec![1.0; 4]).unwrap()
+    NurbsSurface::new(knots.clone(), knots, points, vec![1.0; 4]).expect("valid test data")
 }

@@ -58,7 +58,7 @@ fn faces_of_other_bodies_do_not_join_complete_edges() {
     };
     let faces: Vec<FaceRecord> = block(0, 1.0).into_iter().chain(block(1, -1.0)).collect();
     let inspection = Inspection::of(&faces);
-    assert_eq!(of_kind(&inspection, EdgeKind::Shared).iter().filter(|e| e.length() > 9.0).count() >= 2, true);
+    assert!(of_kind(&inspection, EdgeKind::Shared).iter().filter(|e| e.length() > 9.0).count() >= 2);
     assert_eq!(of_kind(&inspection, EdgeKind::NonManifold).len(), 0);
 }
 
@@ -99,7 +99,7 @@ fn edges_of_the_model_decide_where_the_file_tells_them() {
     let inspection = Inspection::of(&faces);
     let shared = of_kind(&inspection, EdgeKind::Shared);
     assert_eq!((shared.len(), shared[0].uses[1].curve.curve), (1, 1));
-    assert!((shared[0].gap.unwrap().maximum - 5.0).abs() < 1e-12);
+    assert!((shared[0].gap.expect("valid test data").maximum - 5.0).abs() < 1e-12);
     // Two pairs in the same place stay two edges.
     let pile: Vec<FaceRecord> = [1, 1, 2, 2].map(|edge| square(edge, DVec3::ZERO)).into();
     let inspection = Inspection::of(&pile);
