@@ -217,6 +217,7 @@ impl Renderer {
     }
 
     /// Draws edges along `spans` in the looks set, over `target`, hidden behind what is nearer in `depth`.
+    #[expect(clippy::too_many_arguments, reason = "what a pass reads and writes, each by name")]
     pub fn draw_edges(
         &mut self,
         device: &wgpu::Device,

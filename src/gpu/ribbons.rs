@@ -112,6 +112,7 @@ impl RibbonPass {
     }
 
     /// Copies `raw` and fills its holes along `spans`.
+    #[expect(clippy::too_many_arguments, reason = "what a pass reads and writes, each by name")]
     pub fn fill(
         &mut self,
         device: &wgpu::Device,
