@@ -3,7 +3,7 @@
 //!
 //! A pcurve is cut where it leaves a patch. Each piece carries its own little patch, cut to the box of the piece in
 //! parameters and measured from its own origin, so that points are right to f32 of the piece and not of the model.
-//! How finely a piece is drawn depends on the view: [`RibbonScene::spans`] halves pieces until straight segments are
+//! How finely a piece is drawn depends on the view: `RibbonScene::spans` halves pieces until straight segments are
 //! right to a tenth of a pixel, and leaves out what is out of sight.
 
 use bytemuck::{Pod, Zeroable};

@@ -1,7 +1,7 @@
 //! Meshes of whole models: faces that share edges share their vertices, so that bodies come out watertight.
 //!
 //! [`seams`] finds which stretches of which outlines run along each other and divides each once; [`model_mesh`] meshes the
-//! faces in parallel within those chords; [`measure`] says how far the result really is from the exact faces.
+//! faces in parallel within those chords; [`measure()`] says how far the result really is from the exact faces.
 //!
 //! Unlike `inspect`, which measures the gaps between the trim curves of the records, this works on outlines after
 //! repair (closed by lines, cut at seams), because these are what meshes are bounded by.

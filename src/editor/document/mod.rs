@@ -1,8 +1,8 @@
 //! The open document as a file: saving it, and never losing it.
 //!
-//! Wiring: `Input` stops what would lose unsaved work ([`guard`]) until the [`Question`] is answered; `Tools` serves
+//! Wiring: `Input` stops what would lose unsaved work (`guard`) until the [`Question`] is answered; `Tools` serves
 //! saving, which takes a [`Snapshot`] and writes it on a thread; `ApplyEdits` takes the result. While there is
-//! unsaved work a copy is kept to recover from ([`autosave`]); the title says whose window it is.
+//! unsaved work a copy is kept to recover from (`autosave`); the title says whose window it is.
 
 mod autosave;
 mod guard;

@@ -4,7 +4,7 @@
 //! surface, which is divided until it is as close to its triangles as asked ([`refine`], [`flatness`]); both meet in a
 //! constrained Delaunay triangulation in parameters ([`triangulate`]). Unlike in the paper no vertex is ever put on a chord
 //! where the surface's cells cross it, so that two faces that share chords share all their vertices there.
-//! [`untrimmed`] gives the surface alone, by the paper's kd-tree.
+//! [`untrimmed()`] gives the surface alone, by the paper's kd-tree.
 //!
 //! Source (P2): A. Balazs, M. Guthe, R. Klein, "Efficient trimmed NURBS tessellation", 2004.
 //!

@@ -1,7 +1,7 @@
 //! What is wrong with the trim loops of a face, and where: for marks and lists while somebody edits.
 //!
 //! Loops are cut to monotone pieces once; then ends are compared, pieces that may meet are intersected
-//! ([`crossing`]), and loops are nested by points of theirs ([`nesting`]). Nothing is repaired here: drawing goes
+//! (`crossing`), and loops are nested by points of theirs (`nesting`). Nothing is repaired here: drawing goes
 //! on as trimming closes and nests things. Problems are ordered by loop and curve.
 //!
 //! Loops of a closed surface that lie periods apart are compared where they come to lie beside the largest one;
