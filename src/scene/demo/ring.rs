@@ -23,7 +23,7 @@ pub fn add(assembly: &mut Assembly) {
         smooth(
             move |t| {
                 let p = DVec2::from_angle(TAU * t) * DVec2::new(0.085, 1.15);
-                middle + DVec2::new(p.x + 0.16 * p.y, p.y)
+                middle + DVec2::new(p.x + 0.15 * p.y, p.y)
             },
             16,
         )

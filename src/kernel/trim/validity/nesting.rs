@@ -27,9 +27,11 @@ pub(super) fn check(
             .filter(|l| l.index != own.index && l.bounds.contains(uv) && contains(&l.pieces, uv))
             .map(|l| l.index)
             .collect();
-        let kind = match (role(own), (around.len() + implied) % 2) {
+        let depth = around.len() + implied;
+        let kind = match (role(own), depth % 2) {
             (LoopRole::Outer, 1) => ProblemKind::OuterInside { around: around[around.len() - 1] },
-            (LoopRole::Inner, 0) => ProblemKind::HoleOutside,
+            // Deeper ones are islands in holes, which files call inner as well.
+            (LoopRole::Inner, 0) if depth == 0 => ProblemKind::HoleOutside,
             _ => continue,
         };
         let at = At { trim_loop: own.index, curve: piece.curve };
