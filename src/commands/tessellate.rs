@@ -252,7 +252,11 @@ fn tell(statistics: &Statistics, as_json: bool) -> io::Result<()> {
     let unit = &s.unit;
     writeln!(out, "faces       {} meshed, {} left out", s.faces, s.left_out.len())?;
     writeln!(out, "triangles   {} ({} edges, {} of them open)", s.triangles, s.edges, s.open_edges)?;
-    let kind = if s.conservative { "guaranteed" } else { "estimated" };
+    let kind = match (s.conservative, s.over_tolerance) {
+        (true, 0) => "guaranteed",
+        (true, _) => "guaranteed but for the triangles below",
+        (false, _) => "estimated",
+    };
     writeln!(out, "tolerance   {:.6} {unit}, {kind}", s.tolerance)?;
     let m = &s.measured;
     writeln!(

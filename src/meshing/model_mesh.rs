@@ -197,7 +197,12 @@ pub fn remesh_faces(
         }
     }
     (work.progress)(1.0);
-    let faces = meshes.into_iter().map(|m| m.unwrap_or(Err(TessellateError::Empty))).collect();
+    // A face that comes out without triangles is said to have none, not passed over.
+    let faces = meshes
+        .into_iter()
+        .map(|m| m.unwrap_or(Err(TessellateError::Empty)))
+        .map(|m| m.and_then(|m| if m.triangles.is_empty() { Err(TessellateError::Empty) } else { Ok(m) }))
+        .collect();
     Ok(ModelMesh { faces, boundaries, seams: seams.seams.len() })
 }
 
