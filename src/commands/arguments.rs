@@ -75,7 +75,7 @@ pub enum Command {
     Check(CheckArguments),
     /// Close the gaps that moving trim curves can close, and write the model.
     Mend(MendArguments),
-    /// Turn a model into triangles with a guaranteed error: glTF, STL, OBJ or PLY.
+    /// Turn a model into triangles within an error, measured and told: glTF, STL, OBJ or PLY.
     Tessellate(TessellateArguments),
     /// Measure speed and print tables.
     Bench(BenchArguments),
@@ -89,8 +89,10 @@ Examples:
   hairline tessellate part.igs --error 10um --angle 15deg --max-edge 5mm -o part.stl
   hairline tessellate part.igs --error 0.1mm -o part.ply --json | jq .triangles
 
-The error is the largest distance between mesh and surface, both ways, guaranteed by bounds; with --approximate
-it is estimated at points, for fewer triangles. Faces that share edges share their vertices. The
+The error is the largest distance between mesh and surface, both ways, kept by bounds; with --approximate
+it is estimated at points, for fewer triangles. Triangles that the bounds cannot prove are counted and told: there,
+and on some faces with folds or poles, the true error can be several times as large. A face that comes out
+without triangles is named. Faces that share edges share their vertices. The
 true error is measured at samples and told, with the rest of the figures. OBJ files come with a .mtl file.")]
 pub struct TessellateArguments {
     /// Model to tessellate, or `demo`.
@@ -179,8 +181,8 @@ pub struct RenderArguments {
     /// How surfaces are drawn: rays at the exact surfaces, or triangles wrong by at most half a pixel.
     #[arg(long, value_enum, default_value_t = Surfaces::Cast)]
     pub renderer: Surfaces,
-    /// Pin holes between faces that share an edge: left as they are, filled by fat lines as wide as the measured gaps,
-    /// or shown by what fat lines would fill.
+    /// Pin holes between faces that share an edge: left as they are, filled by fat lines along the edges (wide holes
+    /// only in part yet), or shown by what fat lines would fill.
     #[arg(long, value_enum, default_value_t = Holes::Raw)]
     pub conceal: Holes,
 }
@@ -412,7 +414,7 @@ pub enum Mode {
 pub enum Holes {
     /// The picture is what the model is.
     Raw,
-    /// Fat lines fill them.
+    /// Fat lines fill them, wide ones in part.
     Concealed,
     /// What fat lines fill, in red on grey.
     Difference,

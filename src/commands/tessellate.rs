@@ -1,4 +1,4 @@
-//! `hairline tessellate`: a model as triangles with a guaranteed error, into a mesh file.
+//! `hairline tessellate`: a model as triangles within an error, into a mesh file.
 
 use std::io::{self, Write};
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Triangles with a guaranteed error for trimmed faces.
+//! Triangles within an error for trimmed faces; those that the bounds do not prove are counted.
 //!
 //! Trim curves are lifted to model space ([`lift`], [`outline`]) and divided into chords ([`chords`]) independently of the
 //! surface, which is divided until it is as close to its triangles as asked ([`refine`], [`flatness`]); both meet in a

@@ -55,8 +55,6 @@ pub struct TessellationOptions {
     pub curve_error: CurveError,
     /// How the surface is divided.
     pub surface_division: SurfaceDivision,
-    /// Whether points of the surface are evaluated in an order that reuses basis functions.
-    pub coherent: bool,
     /// More triangles than this are an error.
     pub triangle_limit: usize,
 }
@@ -79,7 +77,6 @@ impl TessellationOptions {
             curve_division: CurveDivision::Even,
             curve_error: CurveError::Line,
             surface_division: SurfaceDivision::KdTree,
-            coherent: true,
             triangle_limit: Self::TRIANGLE_LIMIT,
         }
     }
