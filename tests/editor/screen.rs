@@ -4,6 +4,7 @@
 use std::io::{Read, Write};
 use std::os::linux::net::SocketAddrExt;
 use std::os::unix::net::{SocketAddr, UnixStream};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
 /// Width and height of the screen, pixels.
@@ -71,19 +72,23 @@ impl Screen {
         screen
     }
 
-    /// Gives the keyboard to the first window of the program, once there is one: there is no window manager to
-    /// do it. Whether it was there.
+    /// Gives the keyboard to the first window of the program, once there is one that is shown: there is no window
+    /// manager to do it. Whether it has the keyboard now.
     pub fn focus(&mut self) -> bool {
         let reply = self.ask(15, 0, &self.root.to_le_bytes());
-        // Helper windows of the toolkit are not mapped: focusing them is an error, which `receive` skips.
         let count = (reply.len() - 32) / 4;
         for k in 0..count {
             let window = u32_at(&reply, 32 + 4 * k);
             let geometry = self.ask(14, 0, &window.to_le_bytes());
             let width = u16::from_le_bytes([geometry[16], geometry[17]]);
-            if width > SIZE.0 / 2 {
+            // The program's window is made before it is shown, and helper windows of the toolkit never are: giving
+            // the keyboard to a hidden one is an error, without effect.
+            let attributes = self.ask(3, 0, &window.to_le_bytes());
+            let shown = attributes[26] == 2;
+            if width > SIZE.0 / 2 && shown {
                 self.send(42, 1, &[window.to_le_bytes(), [0; 4]].concat());
-                return true;
+                let focus = self.ask(43, 0, &[]);
+                return u32_at(&focus, 8) == window;
             }
         }
         false
@@ -173,6 +178,16 @@ fn u32_at(bytes: &[u8], at: usize) -> u32 {
 pub struct Picture(Vec<[u8; 3]>);
 
 impl Picture {
+    /// Writes it as PNG, to see what a test saw.
+    pub fn save(&self, path: &Path) {
+        let pixels: Vec<u8> = self.0.as_flattened().to_vec();
+        let file = std::fs::File::create(path).expect("writable");
+        let mut encoder = png::Encoder::new(file, u32::from(SIZE.0), u32::from(SIZE.1));
+        encoder.set_color(png::ColorType::Rgb);
+        let mut writer = encoder.write_header().expect("writable");
+        writer.write_image_data(&pixels).expect("writable");
+    }
+
     /// Pixels (x, y) inside `area` (left, top, right, bottom) that differ by more than noise.
     pub fn difference(&self, other: &Self, area: (u16, u16, u16, u16)) -> Vec<(u16, u16)> {
         let (left, top, right, bottom) = area;
