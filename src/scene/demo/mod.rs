@@ -59,6 +59,7 @@ pub fn model() -> ModelRecord {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::trim::validity;
 
     #[test]
     fn scenes_have_names() {
@@ -92,6 +93,16 @@ mod tests {
                     assert_eq!(curve.points().last(), next.points().first(), "{:?}", face.name);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn nothing_is_wrong_with_its_loops() {
+        for face in &model().faces {
+            let loops: Vec<_> = face.loops.iter().collect();
+            let problems = validity::check(&face.surface, &loops);
+            let texts: Vec<String> = problems.iter().map(ToString::to_string).collect();
+            assert!(texts.is_empty(), "{:?}: {texts:?}", face.name);
         }
     }
 }

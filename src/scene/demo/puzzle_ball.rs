@@ -176,7 +176,8 @@ fn cut_at_seam(holes: &[Vec<NurbsCurve2>]) -> Vec<Vec<NurbsCurve2>> {
 
 /// `pieces` even breaks in 0..1 and the crossings of the knot lines of a sphere.
 fn breaks(path: &dyn Fn(f64) -> DVec2, pieces: usize) -> Vec<f64> {
-    let mut breaks: Vec<f64> = (0..pieces).map(|i| i as f64 / pieces as f64).collect();
+    let even = (0..pieces).map(|i| i as f64 / pieces as f64);
+    let mut crossings: Vec<f64> = Vec::new();
     let side = |uv: DVec2| (uv.x.floor(), uv.y >= 1.0);
     const STEPS: usize = 500;
     for i in 0..STEPS {
@@ -187,14 +188,14 @@ fn breaks(path: &dyn Fn(f64) -> DVec2, pieces: usize) -> Vec<f64> {
                 let middle = 0.5 * (a + b);
                 if side(path(middle)) == start { a = middle } else { b = middle }
             }
-            breaks.push(0.5 * (a + b));
+            crossings.push(0.5 * (a + b));
         }
     }
+    // An even break right beside a crossing, also across the start, would leave a sliver.
+    let apart = |a: f64, b: f64| (a - b).abs().min(1.0 - (a - b).abs());
+    let alone = |t: &f64| crossings.iter().all(|c| apart(*c, *t) >= 0.15 / pieces as f64);
+    let mut breaks: Vec<f64> = even.filter(alone).collect();
+    breaks.extend(&crossings);
     breaks.sort_by(f64::total_cmp);
-    // An even break right beside a crossing would leave a sliver.
-    let crossing = |t: f64| (t * pieces as f64).fract() != 0.0;
-    let even_is_near = |t: f64, all: &[f64]| {
-        !crossing(t) && all.iter().any(|c| *c != t && crossing(*c) && (c - t).abs() < 0.15 / pieces as f64)
-    };
-    breaks.iter().copied().filter(|t| !even_is_near(*t, &breaks)).collect()
+    breaks
 }
