@@ -9,10 +9,9 @@ use bevy::prelude::*;
 use super::{FaceProblems, Found, ProblemList};
 use crate::editor::object::{DerivedFace, FaceChange, FaceParts, Records};
 use crate::editor::redraw::Waker;
-use crate::kernel::trim::validity::{self, LoopProblem};
-use crate::scene::records::LoopRecord;
+use crate::kernel::trim::validity::{LoopProblem, Memory};
 
-/// Faces with at most this many curves are checked in the frame in which they change.
+/// With at most this many curves to be checked, faces are checked in the frame in which they change.
 const SMALL: usize = 1000;
 /// Of more faces than this that change in one frame all go to the thread.
 const FEW: usize = 4;
@@ -27,6 +26,8 @@ pub(super) struct Checker(Arc<Mutex<Queue>>);
 struct Queue {
     waiting: VecDeque<(Entity, FaceParts)>,
     done: Vec<(Entity, FaceParts, Vec<LoopProblem>)>,
+    /// The face checked last, as it was then: of it only what changed since is checked.
+    memory: Option<(Entity, Memory)>,
     running: bool,
 }
 
@@ -43,11 +44,26 @@ impl Checker {
     }
 }
 
-fn check(parts: &FaceParts) -> Vec<LoopProblem> {
-    let loops: Vec<&LoopRecord> = parts.loops.iter().map(|l| &**l).collect();
+fn check(parts: &FaceParts, memory: &mut Memory) -> Vec<LoopProblem> {
     // A defect in checking costs the marks, not the program.
-    let checked = std::panic::AssertUnwindSafe(|| validity::check(&parts.surface, &loops));
-    std::panic::catch_unwind(checked).unwrap_or_default()
+    let checked = std::panic::AssertUnwindSafe(|| memory.check(&parts.surface, &parts.loops));
+    let result = std::panic::catch_unwind(checked);
+    if result.is_err() {
+        *memory = Memory::default();
+    }
+    result.unwrap_or_default()
+}
+
+impl Checker {
+    /// What is remembered of a face; it is put back when it was checked.
+    fn take_memory(&self, face: Entity) -> Memory {
+        let kept = self.lock().memory.take_if(|(of, _)| *of == face);
+        kept.map_or_else(Memory::default, |(_, memory)| memory)
+    }
+
+    fn keep_memory(&self, face: Entity, memory: Memory) {
+        self.lock().memory = Some((face, memory));
+    }
 }
 
 /// Checks what changed, or queues it.
@@ -75,10 +91,16 @@ pub(super) fn start(
     let mut queue = Vec::new();
     for face in changed {
         let Some(parts) = records.parts(face) else { continue };
-        let curves: usize = parts.loops.iter().map(|l| l.curves.len()).sum();
-        if few && curves <= SMALL {
-            publish.face(face, check(&parts));
-        } else {
+        // Many at once are not being dragged: nothing is worth remembering of them.
+        let mut memory = if few { checker.take_memory(face) } else { Memory::default() };
+        let at_once = few && memory.curves_to_check(&parts.surface, &parts.loops) <= SMALL;
+        if at_once {
+            publish.face(face, check(&parts, &mut memory));
+        }
+        if few {
+            checker.keep_memory(face, memory);
+        }
+        if !at_once {
             queue.push((face, parts));
         }
     }
@@ -106,7 +128,9 @@ pub(super) fn start(
 fn check_all(checker: &Checker, waker: &Waker) {
     let mut told = Instant::now();
     while let Some((face, parts)) = checker.next() {
-        let found = check(&parts);
+        let mut memory = checker.take_memory(face);
+        let found = check(&parts, &mut memory);
+        checker.keep_memory(face, memory);
         checker.lock().done.push((face, parts, found));
         if told.elapsed() > TELL {
             waker.wake();

@@ -46,6 +46,13 @@ impl ProblemList {
         self.faces.values().map(|f| f.loops.len() + usize::from(f.failure.is_some())).sum()
     }
 
+    /// Number of those that are drawn wrong or may be.
+    pub fn serious_count(&self) -> usize {
+        let of =
+            |f: &Found| f.loops.iter().filter(|p| p.is_serious()).count() + usize::from(f.failure.is_some());
+        self.faces.values().map(of).sum()
+    }
+
     fn set(&mut self, face: Entity, found: Option<Found>) {
         let before = match &found {
             Some(found) => self.faces.insert(face, found.clone()),

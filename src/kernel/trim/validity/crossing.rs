@@ -18,6 +18,8 @@ const FLAT: f64 = 1e-9;
 const AT_END: f64 = 1e-6;
 /// Halvings looked at for one pair; pieces that need more lie on each other.
 const EFFORT: usize = 400;
+/// The search ends after this many times as many places as are reported.
+const GIVE_UP: usize = 4;
 
 struct Item<'c> {
     piece: &'c MonotonePiece,
@@ -25,49 +27,79 @@ struct Item<'c> {
     /// Position in its loop and number of pieces there.
     position: (usize, usize),
     bounds: UvRect,
+    /// Whether its loop is one of those that changed.
+    new: bool,
 }
 
-/// All places where loops meet themselves or each other.
-pub(super) fn find(loops: &[CutLoop], size: f64) -> Vec<LoopProblem> {
-    let mut items: Vec<Item> = loops
-        .iter()
-        .flat_map(|l| {
-            l.pieces.iter().enumerate().map(|(k, piece)| Item {
-                piece,
-                at: At { trim_loop: l.index, curve: piece.curve },
-                position: (k, l.pieces.len()),
-                bounds: piece.bounds(),
-            })
-        })
-        .collect();
-    items.sort_by(|a, b| a.bounds.min.x.total_cmp(&b.bounds.min.x).then(a.at.cmp(&b.at)));
-    let mut found: Vec<LoopProblem> = Vec::new();
+/// Places where loops meet themselves or each other, in order.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Crossings {
+    pub found: Vec<LoopProblem>,
+    /// Whether the search was given up.
+    pub too_many: bool,
+}
+
+/// All places where loops meet themselves or each other. With `changed` only those at one of these loops, by
+/// position in the face.
+pub(super) fn find(loops: &[CutLoop], size: f64, changed: Option<&[usize]>) -> Crossings {
+    let is_changed = |index: usize| changed.is_none_or(|c| c.contains(&index));
+    let regions: Vec<UvRect> = loops.iter().filter(|l| is_changed(l.index)).map(|l| l.bounds).collect();
+    // Everything is near when everything changed.
+    let near = |bounds: &UvRect| changed.is_none() || regions.iter().any(|r| overlap(r, bounds));
+    let mut items: Vec<Item> = Vec::new();
+    for one in loops.iter().filter(|l| near(&l.bounds)) {
+        let new = is_changed(one.index);
+        let count = one.pieces.len();
+        items.extend(one.pieces.iter().enumerate().filter_map(|(k, piece)| {
+            let (at, bounds) = (At { trim_loop: one.index, curve: piece.curve }, piece.bounds());
+            (new || near(&bounds)).then_some(Item { piece, at, position: (k, count), bounds, new })
+        }));
+    }
+    items.sort_by(|a, b| {
+        a.bounds.min.x.total_cmp(&b.bounds.min.x).then(a.at.cmp(&b.at)).then(a.position.cmp(&b.position))
+    });
+    let mut raw: Vec<LoopProblem> = Vec::new();
     let mut active: Vec<usize> = Vec::new();
     for (number, item) in items.iter().enumerate() {
         active.retain(|k| items[*k].bounds.max.x >= item.bounds.min.x);
         for other in active.iter().map(|k| &items[*k]) {
             let (a, b) = (&item.bounds, &other.bounds);
-            if a.min.y > b.max.y || b.min.y > a.max.y {
+            if a.min.y > b.max.y || b.min.y > a.max.y || !(item.new || other.new) {
                 continue;
             }
-            if let Some(uv) = meeting(item, other, size) {
-                let (first, second) = if item.at <= other.at { (item, other) } else { (other, item) };
+            // In the order of the loops, so that the place does not depend on what else is looked at.
+            let swaps = (other.at, other.position) < (item.at, item.position);
+            let (first, second) = if swaps { (other, item) } else { (item, other) };
+            if let Some(uv) = meeting(first, second, size) {
                 let kind = if first.at.trim_loop == second.at.trim_loop {
                     ProblemKind::CrossesItself { curve: second.at.curve }
                 } else {
                     ProblemKind::Crosses { other: second.at }
                 };
-                let same =
-                    |p: &LoopProblem| p.at == first.at && p.kind == kind && p.uv.distance(uv) < AT_END * size;
-                if !found.iter().rev().take(64).any(same) {
-                    found.push(LoopProblem { at: first.at, uv, kind });
-                }
-                if found.len() >= MOST {
-                    return found;
+                raw.push(LoopProblem { at: first.at, uv, kind });
+                if raw.len() >= GIVE_UP * MOST {
+                    return Crossings { found: once(raw, size), too_many: true };
                 }
             }
         }
         active.push(number);
+    }
+    Crossings { found: once(raw, size), too_many: false }
+}
+
+fn overlap(a: &UvRect, b: &UvRect) -> bool {
+    a.min.cmple(b.max).all() && b.min.cmple(a.max).all()
+}
+
+/// In order, each place of two curves once.
+fn once(mut raw: Vec<LoopProblem>, size: f64) -> Vec<LoopProblem> {
+    raw.sort_by(LoopProblem::order);
+    let mut found: Vec<LoopProblem> = Vec::with_capacity(raw.len());
+    for one in raw {
+        let same_curves = found.iter().rev().take_while(|p| p.at == one.at && p.kind == one.kind);
+        if !same_curves.take(64).any(|p| p.uv.distance(one.uv) < AT_END * size) {
+            found.push(one);
+        }
     }
     found
 }

@@ -43,11 +43,19 @@ pub(super) struct CutLoop {
 /// All loops with an extent.
 #[derive(Debug, Clone)]
 pub(super) struct Cut {
+    /// By rising position in the face.
     pub loops: Vec<CutLoop>,
-    /// Period in u and v, 0 where not closed or never asked.
-    pub periods: DVec2,
+    /// Period in u and v, 0 where not closed; none while nobody had to know.
+    pub periods: Option<DVec2>,
     /// Whether a loop goes round the surface.
     pub rings: bool,
+}
+
+impl Cut {
+    /// Period in u and v, 0 where not closed or never asked.
+    pub fn period(&self) -> DVec2 {
+        self.periods.unwrap_or_default()
+    }
 }
 
 /// Cuts loops, reports gaps and empty loops, and shifts loops by periods to the largest one.
@@ -58,51 +66,103 @@ pub(super) fn cut(
     problems: &mut Vec<LoopProblem>,
 ) -> Cut {
     let mut known: Option<DVec2> = None;
-    let mut periods = || *known.get_or_insert_with(|| Periods::of_surface(surface).period);
     let mut splitter = MonotoneSplitter::default();
-    let mut cut = Cut { loops: Vec::new(), periods: DVec2::ZERO, rings: false };
+    let mut cut = Cut { loops: Vec::new(), periods: None, rings: false };
     for (index, record) in loops.iter().enumerate() {
-        let mut pieces: Vec<MonotonePiece> = Vec::new();
-        let mut turns = DVec2::ZERO;
-        let mut first = None;
-        let mut last: Option<(usize, DVec2)> = None;
-        for (curve, nurbs) in record.curves.iter().enumerate() {
-            let beziers = nurbs.to_bezier();
-            let (Some((head, _)), Some((tail, _))) = (beziers.first(), beziers.last()) else { continue };
-            first.get_or_insert(head.start());
-            if let Some((before, end)) = last.replace((curve, tail.end())) {
-                turns += joint(domain, (index, before), end, head.start(), &mut periods, problems);
-            }
-            for (bezier, _) in &beziers {
-                splitter.split(&bezier.points, &bezier.weights, 0.0, |points, weights| {
-                    let points = points.iter().map(|p| *p - turns).collect();
-                    let bezier = BezierCurve2 { points, weights: weights.to_vec() };
-                    pieces.push(MonotonePiece { curve, bezier });
-                });
-            }
-        }
-        if let (Some(first), Some((curve, end))) = (first, last) {
-            turns += joint(domain, (index, curve), end, first, &mut periods, problems);
-        }
-        cut.rings |= turns != DVec2::ZERO;
-        pieces.retain(|p| p.start() != p.end());
-        if pieces.len() < 2 {
-            let uv = record.curves.first().map_or(0.5 * (domain.min + domain.max), |c| c.points()[0]);
-            let at = At { trim_loop: index, curve: 0 };
-            problems.push(LoopProblem { at, uv, kind: ProblemKind::Empty });
-            continue;
-        }
-        let bounds = pieces.iter().fold(UvRect::EMPTY, |all, p| all.union(p.bounds()));
-        cut.loops.push(CutLoop { index, pieces, bounds });
+        let (one, turns) = cut_loop(surface, domain, (index, record), &mut known, &mut splitter, problems);
+        cut.rings |= turns;
+        cut.loops.extend(one);
     }
-    let all = cut.loops.iter().fold(UvRect::EMPTY, |all, l| all.union(l.bounds));
-    let out = (domain.min - all.min).max(all.max - domain.max).max_element();
-    if !cut.loops.is_empty() && out > GAP * domain.size().max_element() {
-        periods();
+    if leaves(domain, &cut.loops) {
+        known.get_or_insert_with(|| Periods::of_surface(surface).period);
     }
-    cut.periods = known.unwrap_or_default();
+    cut.periods = known;
     beside(&mut cut);
     cut
+}
+
+/// Cuts the loops `changed` again and puts them in their places. `None` when that may change where other loops are
+/// compared, so that all have to be cut.
+pub(super) fn cut_again(
+    surface: &NurbsSurface,
+    domain: &UvRect,
+    loops: &[&LoopRecord],
+    changed: &[usize],
+    cut: &mut Cut,
+    problems: &mut Vec<LoopProblem>,
+) -> Option<()> {
+    if cut.rings || cut.period() != DVec2::ZERO {
+        return None;
+    }
+    let mut splitter = MonotoneSplitter::default();
+    for index in changed {
+        let (one, turns) =
+            cut_loop(surface, domain, (*index, loops[*index]), &mut cut.periods, &mut splitter, problems);
+        if turns {
+            return None;
+        }
+        match (cut.loops.binary_search_by_key(index, |l| l.index), one) {
+            (Ok(at), Some(one)) => cut.loops[at] = one,
+            (Ok(at), None) => drop(cut.loops.remove(at)),
+            (Err(at), Some(one)) => cut.loops.insert(at, one),
+            (Err(_), None) => {}
+        }
+    }
+    if leaves(domain, &cut.loops) {
+        cut.periods.get_or_insert_with(|| Periods::of_surface(surface).period);
+    }
+    (cut.period() == DVec2::ZERO).then_some(())
+}
+
+/// Whether a loop leaves the domain, so that one must know whether the surface is closed.
+fn leaves(domain: &UvRect, loops: &[CutLoop]) -> bool {
+    let all = loops.iter().fold(UvRect::EMPTY, |all, l| all.union(l.bounds));
+    let out = (domain.min - all.min).max(all.max - domain.max).max_element();
+    !loops.is_empty() && out > GAP * domain.size().max_element()
+}
+
+/// One loop as pieces, unless it has no extent, and whether it goes round the surface.
+fn cut_loop(
+    surface: &NurbsSurface,
+    domain: &UvRect,
+    (index, record): (usize, &LoopRecord),
+    known: &mut Option<DVec2>,
+    splitter: &mut MonotoneSplitter,
+    problems: &mut Vec<LoopProblem>,
+) -> (Option<CutLoop>, bool) {
+    let mut periods = || *known.get_or_insert_with(|| Periods::of_surface(surface).period);
+    let mut pieces: Vec<MonotonePiece> = Vec::new();
+    let mut turns = DVec2::ZERO;
+    let mut first = None;
+    let mut last: Option<(usize, DVec2)> = None;
+    for (curve, nurbs) in record.curves.iter().enumerate() {
+        let beziers = nurbs.to_bezier();
+        let (Some((head, _)), Some((tail, _))) = (beziers.first(), beziers.last()) else { continue };
+        first.get_or_insert(head.start());
+        if let Some((before, end)) = last.replace((curve, tail.end())) {
+            turns += joint(domain, (index, before), end, head.start(), &mut periods, problems);
+        }
+        for (bezier, _) in &beziers {
+            splitter.split(&bezier.points, &bezier.weights, 0.0, |points, weights| {
+                let points = points.iter().map(|p| *p - turns).collect();
+                let bezier = BezierCurve2 { points, weights: weights.to_vec() };
+                pieces.push(MonotonePiece { curve, bezier });
+            });
+        }
+    }
+    if let (Some(first), Some((curve, end))) = (first, last) {
+        turns += joint(domain, (index, curve), end, first, &mut periods, problems);
+    }
+    let turns = turns != DVec2::ZERO;
+    pieces.retain(|p| p.start() != p.end());
+    if pieces.len() < 2 {
+        let uv = record.curves.first().map_or(0.5 * (domain.min + domain.max), |c| c.points()[0]);
+        let at = At { trim_loop: index, curve: 0 };
+        problems.push(LoopProblem { at, uv, kind: ProblemKind::Empty });
+        return (None, turns);
+    }
+    let bounds = pieces.iter().fold(UvRect::EMPTY, |all, p| all.union(p.bounds()));
+    (Some(CutLoop { index, pieces, bounds }), turns)
 }
 
 /// Whole periods from an end to the next start; anything else is reported as a gap.
@@ -131,7 +191,7 @@ fn joint(
 
 /// Shifts loops by whole periods so that their middles are nearest to that of the largest loop.
 fn beside(cut: &mut Cut) {
-    let periods = cut.periods;
+    let periods = cut.period();
     if periods == DVec2::ZERO {
         return;
     }

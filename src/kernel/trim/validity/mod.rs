@@ -8,20 +8,21 @@
 //! nesting is not judged when loops run round the surface.
 
 mod crossing;
+mod curves;
 mod loops;
+mod memory;
 mod nesting;
 
 use glam::DVec2;
 
-use super::domain::UvRect;
 use super::loop_record::LoopRecord;
 use crate::kernel::nurbs::NurbsSurface;
-use loops::CutLoop;
+use memory::State;
+
+pub use memory::Memory;
 
 /// Ends further apart than this fraction of the domain are a gap: what trimming remarks on.
 pub const GAP: f64 = 1e-6;
-/// Reaching out by less than this fraction of the domain is rounding.
-const BEYOND: f64 = 1e-6;
 /// Most problems of one kind reported for one face.
 pub const MOST: usize = 1000;
 
@@ -97,7 +98,35 @@ pub enum ProblemKind {
     },
 }
 
+impl ProblemKind {
+    /// Tells kinds and what they name apart.
+    fn rank(&self) -> (u8, usize, usize) {
+        match *self {
+            Self::Empty => (0, 0, 0),
+            Self::Open { .. } => (1, 0, 0),
+            Self::CrossesItself { curve } => (2, curve, 0),
+            Self::Crosses { other } => (3, other.trim_loop, other.curve),
+            Self::LeavesDomain { .. } => (4, 0, 0),
+            Self::OuterInside { around } => (5, around, 0),
+            Self::HoleOutside => (6, 0, 0),
+            Self::ZeroLength => (7, 0, 0),
+            Self::NoDirection { point } => (8, point, 0),
+        }
+    }
+}
+
 impl LoopProblem {
+    /// Whether something is drawn wrong or may be, so that it is worth a mark in a picture.
+    pub fn is_serious(&self) -> bool {
+        self.severity() > Severity::Note
+    }
+
+    /// By loop and curve, the worst first; a total order of all there can be.
+    fn order(a: &Self, b: &Self) -> std::cmp::Ordering {
+        let uv = a.uv.x.total_cmp(&b.uv.x).then(a.uv.y.total_cmp(&b.uv.y));
+        a.at.cmp(&b.at).then(b.severity().cmp(&a.severity())).then(a.kind.rank().cmp(&b.kind.rank())).then(uv)
+    }
+
     /// How bad it is.
     pub fn severity(&self) -> Severity {
         match self.kind {
@@ -155,83 +184,7 @@ impl std::fmt::Display for LoopProblem {
 
 /// The problems of a face's loops.
 pub fn check(surface: &NurbsSurface, loops: &[&LoopRecord]) -> Vec<LoopProblem> {
-    let domain = UvRect::of_surface(surface);
-    let mut problems = Vec::new();
-    let cut = loops::cut(surface, &domain, loops, &mut problems);
-    ends(&domain, loops, &mut problems);
-    leaving(&domain, &cut, &mut problems);
-    let size = domain.size().max_element();
-    let crossings = crossing::find(&cut.loops, size);
-    let crossed = |index: usize| {
-        crossings.iter().any(|c: &LoopProblem| match c.kind {
-            ProblemKind::Crosses { other } => c.at.trim_loop == index || other.trim_loop == index,
-            _ => c.at.trim_loop == index,
-        })
-    };
-    if !cut.rings {
-        nesting::check(&cut.loops, loops, crossed, &mut problems);
-    }
-    problems.extend(crossings);
-    problems.sort_by(|a, b| a.at.cmp(&b.at).then(b.severity().cmp(&a.severity())));
-    problems
-}
-
-/// Curves without length or without direction at an end.
-fn ends(domain: &UvRect, loops: &[&LoopRecord], problems: &mut Vec<LoopProblem>) {
-    const SAME: f64 = 1e-12;
-    let size = domain.size();
-    let same = |a: DVec2, b: DVec2| ((a - b) / size).abs().max_element() <= SAME;
-    for (trim_loop, record) in loops.iter().enumerate() {
-        for (curve, nurbs) in record.curves.iter().enumerate() {
-            let (points, at) = (nurbs.points(), At { trim_loop, curve });
-            let uv = points[0];
-            if points.iter().all(|p| same(*p, uv)) {
-                problems.push(LoopProblem { at, uv, kind: ProblemKind::ZeroLength });
-                continue;
-            }
-            let last = points.len() - 2;
-            let firsts = if last == 0 { vec![] } else { vec![0, last] };
-            for point in firsts {
-                if same(points[point], points[point + 1]) {
-                    let kind = ProblemKind::NoDirection { point };
-                    problems.push(LoopProblem { at, uv: points[point], kind });
-                }
-            }
-        }
-    }
-}
-
-/// One problem for each curve that leaves the domain in a direction in which the surface is not closed.
-fn leaving(domain: &UvRect, cut: &loops::Cut, problems: &mut Vec<LoopProblem>) {
-    let size = domain.size();
-    for CutLoop { index, pieces, .. } in &cut.loops {
-        let mut worst: Option<LoopProblem> = None;
-        for piece in pieces {
-            for uv in [piece.start(), piece.end()] {
-                let mut out = (domain.min - uv).max(uv - domain.max).max(DVec2::ZERO);
-                for axis in 0..2 {
-                    if cut.periods[axis] > 0.0 || out[axis] <= BEYOND * size[axis] {
-                        out[axis] = 0.0;
-                    }
-                }
-                let by = out.max_element();
-                if by == 0.0 {
-                    continue;
-                }
-                let at = At { trim_loop: *index, curve: piece.curve };
-                let found = LoopProblem { at, uv, kind: ProblemKind::LeavesDomain { by } };
-                match &mut worst {
-                    Some(worst) if worst.at == at => {
-                        if matches!(worst.kind, ProblemKind::LeavesDomain { by: most } if by > most) {
-                            *worst = found;
-                        }
-                    }
-                    _ => problems.extend(worst.replace(found)),
-                }
-            }
-        }
-        problems.extend(worst);
-    }
+    State::of(surface, loops).problems(loops)
 }
 
 #[cfg(test)]

@@ -8,25 +8,63 @@ use glam::DVec2;
 
 use super::loops::{CutLoop, MonotonePiece};
 use super::{At, LoopProblem, ProblemKind};
+use crate::kernel::trim::domain::UvRect;
 use crate::kernel::trim::loop_record::{LoopRecord, LoopRole};
+
+/// The loops around a point of each loop, by its position among the cut ones.
+pub(super) type Around = Vec<Vec<usize>>;
+
+/// What is around each loop.
+pub(super) fn around(cut: &[CutLoop]) -> Around {
+    let boxes: Vec<UvRect> = cut.iter().map(|l| l.bounds).collect();
+    let of = |own: &CutLoop| {
+        let uv = inner_point(own);
+        let others = cut.iter().zip(&boxes).filter(|(l, bounds)| bounds.contains(uv) && l.index != own.index);
+        others.filter(|(l, _)| contains(&l.pieces, uv)).map(|(l, _)| l.index).collect()
+    };
+    cut.iter().map(of).collect()
+}
+
+/// The same after the loops `changed` (by position in the face) are others. `cut` has the loops that it had before.
+pub(super) fn around_again(cut: &[CutLoop], changed: &[usize], around: &mut Around) {
+    let is_changed = |l: &CutLoop| changed.contains(&l.index);
+    let new: Vec<&CutLoop> = cut.iter().filter(|l| is_changed(l)).collect();
+    for (own, around) in cut.iter().zip(around) {
+        let uv = inner_point(own);
+        let is_around =
+            |l: &CutLoop| l.index != own.index && l.bounds.contains(uv) && contains(&l.pieces, uv);
+        if is_changed(own) {
+            *around = cut.iter().filter(|l| is_around(l)).map(|l| l.index).collect();
+            continue;
+        }
+        for other in &new {
+            match (around.binary_search(&other.index), is_around(other)) {
+                (Err(at), true) => around.insert(at, other.index),
+                (Ok(at), false) => drop(around.remove(at)),
+                _ => {}
+            }
+        }
+    }
+}
+
+/// A point of the loop that tells what is around it.
+fn inner_point(of: &CutLoop) -> DVec2 {
+    of.pieces.first().map_or(of.bounds.min, |piece| piece.bezier.point(0.5))
+}
 
 /// Adds problems of the loops for which `crossed` is false.
 pub(super) fn check(
     cut: &[CutLoop],
+    around: &Around,
     loops: &[&LoopRecord],
-    crossed: impl Fn(usize) -> bool,
+    crossed: &[bool],
     problems: &mut Vec<LoopProblem>,
 ) {
     let role = |l: &CutLoop| loops[l.index].role;
     let implied = usize::from(cut.iter().all(|l| role(l) == LoopRole::Inner));
-    for own in cut.iter().filter(|l| role(l) != LoopRole::Unknown && !crossed(l.index)) {
+    let judged = cut.iter().zip(around).filter(|(l, _)| role(l) != LoopRole::Unknown && !crossed[l.index]);
+    for (own, around) in judged {
         let Some(piece) = own.pieces.first() else { continue };
-        let uv = piece.bezier.point(0.5);
-        let around: Vec<usize> = cut
-            .iter()
-            .filter(|l| l.index != own.index && l.bounds.contains(uv) && contains(&l.pieces, uv))
-            .map(|l| l.index)
-            .collect();
         let depth = around.len() + implied;
         let kind = match (role(own), depth % 2) {
             (LoopRole::Outer, 1) => ProblemKind::OuterInside { around: around[around.len() - 1] },
@@ -35,7 +73,7 @@ pub(super) fn check(
             _ => continue,
         };
         let at = At { trim_loop: own.index, curve: piece.curve };
-        problems.push(LoopProblem { at, uv, kind });
+        problems.push(LoopProblem { at, uv: inner_point(own), kind });
     }
 }
 

@@ -121,3 +121,64 @@ fn the_demo_scene_is_sound() {
         assert!(found.iter().all(|p| p.severity() == Severity::Note), "{:?}: {found:?}", face.name);
     }
 }
+
+mod after_edits {
+    use std::sync::Arc;
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// A face with `side` times `side` holes.
+    fn sieve(side: usize) -> Vec<Arc<LoopRecord>> {
+        let (_, border) = outer();
+        let mut loops = vec![LoopRecord::new(LoopRole::Outer, border)];
+        let step = 1.0 / side as f64;
+        for k in 0..side * side {
+            let centre = DVec2::new(step * ((k % side) as f64 + 0.5), step * ((k / side) as f64 + 0.5));
+            loops.push(LoopRecord::new(LoopRole::Inner, circle(centre, 0.35 * step)));
+        }
+        loops.into_iter().map(Arc::new).collect()
+    }
+
+    fn moved(from: &LoopRecord, by: DVec2, scale: f64) -> LoopRecord {
+        let middle = from.curves[0].points()[0];
+        let map = |p: DVec2| middle + (p - middle) * scale + by;
+        LoopRecord::new(from.role, from.curves.iter().map(|c| c.map_points(map)).collect())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+        /// Whatever is moved, shrunk to nothing, thrown out of the domain or given another role.
+        #[test]
+        fn remembering_gives_what_a_fresh_check_gives(
+            moves in proptest::collection::vec(
+                (0usize..26, -0.4f64..0.4, -0.4f64..0.4, prop_oneof![Just(0.0), 0.2f64..3.0], 0u8..3), 1..12)
+        ) {
+            let surface = Arc::new(plane());
+            let mut loops = sieve(5);
+            let mut memory = Memory::default();
+            memory.check(&surface, &loops);
+            for (which, u, v, scale, role) in moves {
+                let mut record = moved(&loops[which], DVec2::new(u, v), scale);
+                record.role = [LoopRole::Inner, LoopRole::Outer, LoopRole::Unknown][usize::from(role)];
+                loops[which] = Arc::new(record);
+                let fresh = check(&surface, &loops.iter().map(|l| &**l).collect::<Vec<_>>());
+                prop_assert_eq!(memory.check(&surface, &loops), fresh);
+            }
+        }
+    }
+
+    #[test]
+    fn only_the_loop_that_moved_is_looked_at() {
+        let surface = Arc::new(plane());
+        let mut loops = sieve(10);
+        let mut memory = Memory::default();
+        let all: usize = loops.iter().map(|l| l.curves.len()).sum();
+        assert_eq!(memory.curves_to_check(&surface, &loops), all);
+        assert_eq!(memory.check(&surface, &loops), []);
+        loops[7] = Arc::new(moved(&loops[7], DVec2::new(0.1, 0.0), 1.0));
+        assert_eq!(memory.curves_to_check(&surface, &loops), loops[7].curves.len());
+        assert!(!memory.check(&surface, &loops).is_empty(), "it lies on its neighbour");
+    }
+}
