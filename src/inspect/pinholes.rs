@@ -166,6 +166,20 @@ impl Screen {
         self.pixel[0] + self.pixel[1] * z.abs()
     }
 
+    /// Whether all within `reach` of a point is off the screen. In space, not in pixels: beside the eye, where depth is
+    /// next to nothing, a pixel says nothing.
+    fn is_off(&self, p: DVec3, reach: f64) -> bool {
+        let z = self.depth(p);
+        let scale = match self.camera.projection {
+            Projection::Perspective { .. } if z + reach <= 0.0 => return true,
+            Projection::Perspective { .. } => (z + reach) / self.camera.distance(),
+            Projection::Orthographic { .. } => 1.0,
+        };
+        let from = p - self.camera.target;
+        let across = DVec2::new(from.dot(self.axes.0), from.dot(self.axes.1)).abs();
+        across.cmpgt(self.half * scale + reach + 2.0 * self.width(z.abs() + reach)).any()
+    }
+
     /// Position in pixels from the upper left of the sample grid; `None` behind the eye.
     fn project(&self, p: DVec3) -> Option<DVec2> {
         let from = p - self.camera.target;
@@ -222,18 +236,13 @@ impl Walk<'_> {
         let reach = 0.6 * (self.a.length_to(to) - self.a.length_to(from)) + self.gap;
         let z = self.screen.depth(middle);
         let width = self.screen.width((z - reach).max(1e-3 * z.abs()));
-        if self.gap < WIDE_PX * width {
+        if self.gap < WIDE_PX * width || self.screen.is_off(middle, reach) {
             return;
         }
-        if let Some(p) = self.screen.project(middle) {
-            let margin = DVec2::splat(2.0 * reach / width + 2.0);
-            if (p + margin).min_element() < 0.0 || (p - margin - self.screen.size).max_element() > 0.0 {
-                return;
-            }
-        } else if z + reach <= 0.0 {
-            return;
-        }
-        if reach - self.gap > 0.5 * width && halvings > 0 {
+        // With the eye in the gap itself there is nothing to tell pixels by.
+        let length = reach - self.gap;
+        let width = self.screen.width((z - length).max(0.25 * z.abs()).max(0.05 * self.gap));
+        if length > 0.5 * width && halvings > 0 {
             let half = 0.5 * (from + to);
             self.along((from, half), halvings - 1, found);
             self.along((half, to), halvings - 1, found);
