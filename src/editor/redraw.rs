@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use bevy::prelude::*;
-use bevy::window::RequestRedraw;
+use bevy::window::{RequestRedraw, WindowResized, WindowScaleFactorChanged};
 use bevy::winit::{EventLoopProxyWrapper, UpdateMode, WinitSettings, WinitUserEvent};
 use bevy_egui::{EguiInput, EguiPreUpdateSet, egui};
 
@@ -70,7 +70,9 @@ impl Plugin for RedrawPlugin {
                 PreUpdate,
                 drop_noise.after(EguiPreUpdateSet::ProcessInput).before(EguiPreUpdateSet::BeginPass),
             )
-            .add_systems(Last, redraw_after_commands);
+            .add_message::<WindowResized>()
+            .add_message::<WindowScaleFactorChanged>()
+            .add_systems(Last, (redraw_after_commands, redraw_after_resize));
     }
 }
 
@@ -90,6 +92,25 @@ fn drop_noise(mut inputs: Query<&mut EguiInput>, mut last: Local<egui::Modifiers
             egui::Event::Key { key: egui::Key::Tab, .. } => typing,
             _ => true,
         });
+    }
+}
+
+/// Frames that a new size of the window takes to reach the panels, by way of the camera, and the viewport, by way of
+/// the panels.
+const RESIZE_FRAMES: u32 = 3;
+
+fn redraw_after_resize(
+    mut sizes: MessageReader<WindowResized>,
+    mut scales: MessageReader<WindowScaleFactorChanged>,
+    mut left: Local<u32>,
+    mut redraw: MessageWriter<RequestRedraw>,
+) {
+    if sizes.read().count() + scales.read().count() > 0 {
+        *left = RESIZE_FRAMES;
+    }
+    if *left > 0 {
+        *left -= 1;
+        redraw.write(RequestRedraw);
     }
 }
 

@@ -14,8 +14,10 @@ use crate::editor::selection::Selection;
 use crate::encoding::{FaceHeader, FaceShape, FaceSlot, PackedScene};
 use crate::kernel::face::Face;
 
-/// Time for packing per frame: a large model appears piece by piece and the window stays alive.
-const PACK_TIME: Duration = Duration::from_millis(40);
+/// Time for packing per frame, at least and at most: a large model appears piece by piece and the window stays alive.
+const PACK_TIME: (Duration, Duration) = (Duration::from_millis(40), Duration::from_millis(300));
+/// Where frames take long for other reasons, packing gets this part of their time, or a large model never arrives.
+const PACK_SHARE: f32 = 0.5;
 /// What was packed meanwhile is shown this often: sending and casting it takes time too.
 const SHOW_TIME: Duration = Duration::from_millis(500);
 
@@ -195,7 +197,8 @@ pub(super) fn extract(
     new.sort();
     faces.waiting.extend(new.into_iter().map(|(_, entity)| entity));
     let started = Instant::now();
-    if pack(faces, &selection) {
+    let frame = Duration::from_secs_f32(1e-3 * figures.lock().frame_ms.clamp(0.0, 1e4));
+    if pack(faces, &selection, frame) {
         figures.lock().edit.add(started.elapsed());
     }
     if faces.selected != selection.revision || faces.hovered != selection.hovered {
@@ -203,10 +206,11 @@ pub(super) fn extract(
     }
 }
 
-/// Packs waiting faces for a while. Says whether there were any.
-fn pack(faces: &mut RenderFaces, selection: &Selection) -> bool {
+/// Packs waiting faces for a while, given how long the last frame took. Says whether there were any.
+fn pack(faces: &mut RenderFaces, selection: &Selection, frame: Duration) -> bool {
     let (started, any) = (Instant::now(), faces.is_waiting());
-    while started.elapsed() < PACK_TIME
+    let time = frame.mul_f32(PACK_SHARE).clamp(PACK_TIME.0, PACK_TIME.1);
+    while started.elapsed() < time
         && let Some(entity) = faces.waiting.pop_front()
     {
         let Some(origin) = faces.origins.get_mut(&entity) else { continue };
@@ -240,7 +244,7 @@ fn pack(faces: &mut RenderFaces, selection: &Selection) -> bool {
         faces.mark(entity, selection);
         faces.unshown = true;
     }
-    let due = faces.shown_at.is_none_or(|t| t.elapsed() > SHOW_TIME);
+    let due = faces.shown_at.is_none_or(|t| t.elapsed() > SHOW_TIME.max(3 * frame));
     if faces.unshown && (due || !faces.is_waiting()) {
         faces.geometry += 1;
         faces.unshown = false;

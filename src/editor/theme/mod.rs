@@ -48,6 +48,36 @@ fn grow_atlas(ctx: &egui::Context) {
     });
 }
 
+/// Sizes in which text changes while something is dragged, points.
+const LIVE_SIZES: [f32; 5] = [10.5, 11.0, size::SMALL, 12.0, size::BODY];
+/// Orders in which letters are drawn ahead: the place of a letter within a pixel follows from those before it, and there
+/// is a picture of it for some of these places.
+const ORDERS: usize = 16;
+
+/// Draws letters ahead: one that is drawn for the first time is missing in that frame, which flickers while figures
+/// follow a drag.
+fn draw_ahead(ctx: &egui::Context) {
+    let letters: Vec<char> = (' '..='~').chain("…–°×·²".chars()).collect();
+    let count = letters.len();
+    let medium = egui::FontFamily::Name(style::MEDIUM.into());
+    let fonts = LIVE_SIZES.map(egui::FontId::proportional).into_iter();
+    let all: Vec<egui::FontId> = fonts.chain([egui::FontId::new(size::BODY, medium)]).collect();
+    for order in 0..ORDERS {
+        // A step that has no factor in common with the number of letters passes all of them.
+        let step = (2 * order + 1..).find(|s| greatest_divisor(*s, count) == 1).unwrap_or(1);
+        let text: String = (0..count).map(|k| letters[k * step % count]).collect();
+        ctx.fonts_mut(|fonts| {
+            for font in &all {
+                fonts.layout_no_wrap(text.clone(), font.clone(), egui::Color32::WHITE);
+            }
+        });
+    }
+}
+
+fn greatest_divisor(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { greatest_divisor(b, a % b) }
+}
+
 /// Sets fonts once and the style whenever the theme changes.
 pub(super) fn install(
     mut contexts: EguiContexts,
@@ -59,6 +89,7 @@ pub(super) fn install(
     let ctx = contexts.ctx_mut()?;
     if !*grown && is_ready(ctx) {
         grow_atlas(ctx);
+        draw_ahead(ctx);
         *grown = true;
     }
     if *installed == Some(settings.light) {
