@@ -169,6 +169,10 @@ fn switch(mut requests: MessageReader<CommandRequest>, mut settings: ResMut<Sett
                 settings.surfaces = *surfaces;
                 continue;
             }
+            Action::Autosave(seconds) => {
+                settings.autosave_s = *seconds;
+                continue;
+            }
             Action::ToggleEdges => &mut settings.edges,
             Action::ToggleGrid => &mut settings.grid,
             Action::ToggleTheme => &mut settings.light,

@@ -55,6 +55,14 @@ impl Statistics {
         self.gaps.extend(edge.gap.map(|g| g.maximum));
     }
 
+    /// Gives lengths in another unit: `by` of it are one of the present unit.
+    pub fn scale(&mut self, by: f64) {
+        let tallies =
+            [&mut self.shared, &mut self.naked, &mut self.non_manifold, &mut self.seam, &mut self.degenerate];
+        tallies.into_iter().for_each(|t| t.length *= by);
+        self.gaps.iter_mut().for_each(|g| *g *= by);
+    }
+
     /// The gap that the part `q` (0 to 1) of the edges stays below or at; 0 without gaps.
     pub fn quantile(&self, q: f64) -> f64 {
         let last = self.gaps.len().saturating_sub(1);

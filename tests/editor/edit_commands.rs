@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 use hairline::editor::editing::{Editing, Prompt, RunEdit};
-use hairline::editor::elements::{Element, ElementRequest};
+use hairline::editor::elements::{Element, ElementRequest, ElementSelection};
 use hairline::editor::object::Scene;
 use hairline::editor::panels::Notices;
 use hairline::editor::selection::{SelectMode, SelectRequest};
@@ -159,4 +159,30 @@ fn delete_takes_elements_first_and_faces_else() {
     command(&mut app, Action::Undo);
     command(&mut app, Action::Undo);
     assert!(records(&mut app) == before);
+}
+
+#[test]
+fn loops_that_are_added_are_selected() {
+    let mut app = demo_app();
+    let id = holed(&mut app);
+    let face = app.world().resource::<Scene>().face(id.model, id.face).expect("a face");
+    app.world_mut().write_message(SelectRequest { faces: vec![face], mode: SelectMode::Replace });
+    app.update();
+    app.update();
+    let selected = |app: &App| app.world().resource::<ElementSelection>().loops();
+    let count = |app: &mut App| records(app)[0].faces[id.face].loops.len();
+    for (action, typed) in [
+        (EditAction::AddCircle, vec!["0.5", "0.5", "0.001"]),
+        (EditAction::AddText, vec!["A1", "0.5", "0.5", "0.01"]),
+        (EditAction::Duplicate, vec![]),
+    ] {
+        let before = count(&mut app);
+        let values = typed.into_iter().map(str::to_owned).collect();
+        app.world_mut().write_message(RunEdit { action, values });
+        app.update();
+        app.update();
+        let after = count(&mut app);
+        assert!(after > before, "{action:?}");
+        assert_eq!(selected(&app), (before..after).collect::<Vec<_>>(), "{action:?}");
+    }
 }

@@ -7,6 +7,7 @@ mod edit_commands;
 mod editing;
 mod input;
 mod inspection;
+mod mending;
 #[cfg(target_os = "linux")]
 mod recovery;
 #[cfg(target_os = "linux")]

@@ -173,6 +173,22 @@ fn opening_replaces_and_importing_adds() {
 }
 
 #[test]
+fn importing_is_a_step() {
+    use hairline::editor::editing::Editing;
+    let mut app = demo_app();
+    let one = faces(&app).len();
+    open(&mut app, vec![Source::Demo], false);
+    let imported = crate::editing::records(&mut app);
+    assert_eq!(app.world().resource::<Editing>().history().undo_label(), Some("Import Demo scene"));
+    assert!(app.world().resource::<Editing>().is_unsaved());
+    command(&mut app, Action::Undo);
+    assert_eq!(faces(&app).len(), one);
+    assert!(!app.world().resource::<Editing>().is_unsaved(), "as it was opened");
+    command(&mut app, Action::Redo);
+    assert_eq!(crate::editing::records(&mut app), imported);
+}
+
+#[test]
 fn a_bad_file_is_named_and_what_is_open_stays() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let empty = folder.path().join("empty.igs");

@@ -9,6 +9,7 @@
 mod apply;
 mod commands;
 mod document;
+mod operations;
 mod prompt;
 mod session;
 mod structure;
@@ -17,12 +18,14 @@ mod values;
 use bevy::prelude::*;
 
 pub use apply::apply_edit;
-pub use commands::{Clipboard, RunEdit, Target, curves_meant, operations};
+pub use commands::{Clipboard, RunEdit};
 pub use document::OpenDocument;
+pub use operations::{Target, curves_meant, operations};
 pub use prompt::Prompt;
 pub use session::{ApplyRequests, Editing, SavePoint};
 
 use super::EditorSystems;
+use crate::scene::Edit;
 use crate::scene::operation::Operation;
 
 /// Asks for a change of the document. Served in order; what does not fit the moment is ignored.
@@ -32,6 +35,8 @@ pub enum EditRequest {
     Perform(Operation),
     /// Does all of them as one step of this name, or none.
     PerformAll(String, Vec<Operation>),
+    /// Does a change that was worked out elsewhere, as one step. Ends a drag first, without a step.
+    Apply(Edit),
     /// Starts a drag.
     Begin,
     /// Shows the document as it was at `Begin` with this done to it, instead of the last preview. When it is

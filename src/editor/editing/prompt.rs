@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use super::commands::{Target, curves_meant};
+use super::operations::{Target, curves_meant};
 use crate::editor::tools::EditAction;
 use crate::kernel::trim::UvRect;
 
@@ -79,6 +79,11 @@ pub(super) fn defaults(action: EditAction, target: &Target) -> Vec<String> {
                 format!("{} {}", round(centre.x + u * size.x), round(centre.y + v * size.y))
             };
             vec![corners.map(corner).join(", ")]
+        }
+        A::AddText => {
+            let mut values = vec!["HAIRLINE".to_owned()];
+            values.extend([centre.x, centre.y, 0.1 * size.y].map(round));
+            values
         }
         A::Rotate => vec!["90".into()],
         A::Scale => vec!["2".into(), "2".into()],

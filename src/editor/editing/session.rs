@@ -7,11 +7,12 @@ use bevy::prelude::*;
 
 use super::{EditRequest, OpenDocument, apply_edit};
 use crate::editor::diagnostics::RenderFigures;
+use crate::editor::elements::FreshLoops;
 use crate::editor::panels::Notices;
 use crate::editor::redraw::Waker;
 use crate::editor::tools::{Action, CommandRequest};
 use crate::scene::operation::{Operation, OperationError};
-use crate::scene::{Edit, EditError, History};
+use crate::scene::{Change, Edit, EditError, FaceId, History};
 
 /// The moment in `ApplyEdits` when requests are served.
 #[derive(SystemSet, Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -66,6 +67,16 @@ impl Editing {
         self.touches != self.saved_touches
             || !self.history.is_saved()
             || self.drag.as_ref().is_some_and(|d| d.shown.is_some())
+    }
+
+    /// Enters a change that was made elsewhere, as a step. One too large to keep is only noted.
+    pub fn enter(&mut self, edit: Edit) {
+        self.revision += 1;
+        if edit.bytes() > self.history.cap_bytes() / 2 {
+            self.touches += 1;
+        } else {
+            self.history.push(edit);
+        }
     }
 
     /// Notes a change that is no step.
@@ -164,6 +175,20 @@ fn work_out(world: &World, document: &mut Reading, operation: &Operation) -> Res
     Ok(operation.perform(&document).map_err(Box::new)?)
 }
 
+/// Loops that an operation adds to a face, by position.
+fn fresh_loops(operation: &Operation, edit: &Edit) -> Option<(FaceId, std::ops::Range<usize>)> {
+    let adds = matches!(
+        operation,
+        Operation::AddLoop { .. } | Operation::PasteLoops { .. } | Operation::DuplicateLoops { .. }
+    );
+    edit.changes.iter().rev().filter(|_| adds).find_map(|change| match change {
+        Change::Loops { face, at, before, after } if after.len() > before.len() => {
+            Some((*face, at + before.len()..at + after.len()))
+        }
+        _ => None,
+    })
+}
+
 impl Editing {
     fn serve(
         &mut self,
@@ -175,11 +200,20 @@ impl Editing {
             EditRequest::Perform(operation) => {
                 self.cancel(world)?;
                 let edit = work_out(world, document, operation)?;
-                self.step(world, edit)
+                let fresh = fresh_loops(operation, &edit);
+                self.step(world, edit)?;
+                if fresh.is_some() {
+                    world.resource_mut::<FreshLoops>().0 = fresh;
+                }
+                Ok(())
             }
             EditRequest::PerformAll(label, operations) => {
                 self.cancel(world)?;
                 self.perform_all(world, document, label, operations)
+            }
+            EditRequest::Apply(edit) => {
+                self.cancel(world)?;
+                self.step(world, edit.clone())
             }
             EditRequest::Begin => {
                 self.cancel(world)?;
@@ -286,13 +320,17 @@ impl Editing {
         operations: &[Operation],
     ) -> Result<(), Refusal> {
         let mut whole = Edit::new(label, Vec::new());
+        let mut fresh = None;
         for operation in operations {
             let done = work_out(world, document, operation).and_then(|edit| {
                 apply_edit(world, &edit)?;
                 Ok(edit)
             });
             match done {
-                Ok(edit) => whole.changes.extend(edit.changes),
+                Ok(edit) => {
+                    fresh = fresh_loops(operation, &edit).or(fresh);
+                    whole.changes.extend(edit.changes);
+                }
                 Err(error) => {
                     apply_edit(world, &whole.inverse())?;
                     return Err(error);
@@ -301,6 +339,9 @@ impl Editing {
         }
         self.revision += 1;
         self.history.push(whole);
+        if fresh.is_some() {
+            world.resource_mut::<FreshLoops>().0 = fresh;
+        }
         Ok(())
     }
 }

@@ -53,6 +53,11 @@ impl<'a> Values<'a> {
         Ok(numbers.chunks_exact(2).map(|p| DVec2::new(p[0], p[1])).collect())
     }
 
+    /// Something must have been typed.
+    pub fn required(&self, index: usize) -> Result<String, String> {
+        self.text(index).ok_or_else(|| format!("{}: nothing was typed", self.name(index)))
+    }
+
     /// None when nothing was typed.
     pub fn text(&self, index: usize) -> Option<String> {
         Some(self.get(index).to_owned()).filter(|t| !t.is_empty())

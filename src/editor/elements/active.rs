@@ -5,12 +5,12 @@ use std::sync::Arc;
 use bevy::prelude::*;
 use glam::{DVec2, DVec3};
 
-use super::element::PointAddress;
+use super::element::{Element, PointAddress};
 use super::selection::{ElementRequest, ElementSelection};
 use crate::editor::derive::Derived;
 use crate::editor::object::{DerivedFace, FacePlace, Records, Scene};
 use crate::editor::problems::FaceProblems;
-use crate::editor::selection::Selection;
+use crate::editor::selection::{SelectMode, Selection};
 use crate::kernel::nurbs::{NurbsCurve2, NurbsSurface};
 use crate::kernel::trim::UvRect;
 use crate::kernel::trim::validity::LoopProblem;
@@ -80,11 +80,20 @@ impl ActiveFace {
     }
 }
 
+/// Loops that were just added to a face: they are selected once the face is seen with them.
+#[derive(Resource, Debug, Default)]
+pub struct FreshLoops(pub Option<(FaceId, std::ops::Range<usize>)>);
+
+/// Elements of a face that was selected together with them: they are there once it is the active one.
+#[derive(Resource, Debug, Default)]
+pub(super) struct Awaited(Option<(Entity, Vec<Element>)>);
+
 /// Applies requests. The face selected last is the active one.
 pub(super) fn apply(
     mut requests: MessageReader<ElementRequest>,
     faces: Res<Selection>,
     active: Res<ActiveFace>,
+    mut awaited: ResMut<Awaited>,
     mut selection: ResMut<ElementSelection>,
 ) {
     let face = faces.faces().last().copied();
@@ -93,7 +102,10 @@ pub(super) fn apply(
     }
     let in_hand = active.face.as_ref().filter(|f| Some(f.entity) == face);
     for request in requests.read() {
-        let Some(in_hand) = in_hand else { continue };
+        let Some(in_hand) = in_hand else {
+            awaited.0 = face.map(|face| (face, request.elements.clone()));
+            continue;
+        };
         let known: Vec<_> = request.elements.iter().copied().filter(|e| e.exists_in(in_hand)).collect();
         selection.apply(&known, request.mode);
     }
@@ -103,6 +115,7 @@ pub(super) fn apply(
 pub(super) fn observe(
     mut active: ResMut<ActiveFace>,
     mut selection: ResMut<ElementSelection>,
+    (mut fresh, mut awaited): (ResMut<FreshLoops>, ResMut<Awaited>),
     scene: Res<Scene>,
     records: Records,
     faces: Query<(&FacePlace, Option<&DerivedFace>, Option<&FaceProblems>)>,
@@ -150,5 +163,18 @@ pub(super) fn observe(
         }
     }
     active.derived_revision += u64::from(!same_derived || !same_record);
+    if let Some((entity, elements)) = awaited.0.take()
+        && let Some(face) = found.as_ref().filter(|f| f.entity == entity)
+    {
+        let known: Vec<Element> = elements.into_iter().filter(|e| e.exists_in(face)).collect();
+        selection.apply(&known, SelectMode::Replace);
+    }
+    if let Some((id, loops)) = fresh.0.take()
+        && let Some(face) = found.as_ref().filter(|f| f.id == id)
+    {
+        let elements = loops.map(|trim_loop| Element::Loop { trim_loop });
+        let known: Vec<Element> = elements.filter(|e| e.exists_in(face)).collect();
+        selection.apply(&known, SelectMode::Replace);
+    }
     active.face = found;
 }

@@ -10,7 +10,7 @@ mod selection;
 
 use bevy::prelude::*;
 
-pub use active::{ActiveFace, FaceInHand};
+pub use active::{ActiveFace, FaceInHand, FreshLoops};
 pub use element::{Element, PointAddress};
 pub use selection::{ElementRequest, ElementSelection};
 
@@ -27,6 +27,8 @@ impl Plugin for ElementsPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<ElementSelection>()
             .init_resource::<ActiveFace>()
+            .init_resource::<FreshLoops>()
+            .init_resource::<active::Awaited>()
             .add_message::<ElementRequest>()
             .add_systems(
                 Update,

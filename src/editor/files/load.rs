@@ -20,6 +20,7 @@ use crate::editor::redraw::Waker;
 use crate::editor::settings::Settings;
 use crate::editor::tools::{Action, CommandRequest};
 use crate::scene::file::Fingerprint;
+use crate::scene::{Change, Edit};
 
 /// What is being read.
 #[derive(Resource, Default)]
@@ -189,7 +190,7 @@ pub(super) fn finish(
             for model in &loaded.models {
                 notices.imported(&name, &model.report);
             }
-            spawn.enter(&mut commands, loaded, replaces.is_some(), &mut notices);
+            spawn.enter(&mut commands, loaded, &name, replaces.is_some(), &mut notices);
         }
         Err(LoadError::Cancelled) => notices.info(format!("{name}: loading cancelled")),
         Err(error) => notices.error(error.to_string()),
@@ -208,7 +209,14 @@ pub(super) struct Spawn<'w> {
 }
 
 impl Spawn<'_> {
-    fn enter(&mut self, commands: &mut Commands, loaded: LoadedScene, replace: bool, notices: &mut Notices) {
+    fn enter(
+        &mut self,
+        commands: &mut Commands,
+        loaded: LoadedScene,
+        name: &str,
+        replace: bool,
+        notices: &mut Notices,
+    ) {
         let path = loaded.models.iter().find_map(|m| m.path.clone());
         let path = path.or(loaded.file.as_ref().map(|f| f.path.clone()));
         if replace {
@@ -217,7 +225,9 @@ impl Spawn<'_> {
             self.editing.start_over();
             self.file.start_over();
         } else {
-            self.editing.touch();
+            let records = loaded.models.iter().map(|m| m.record.clone()).collect();
+            let change = Change::Models { at: self.scene.models.len(), before: Vec::new(), after: records };
+            self.editing.enter(Edit::new(format!("Import {name}"), vec![change]));
         }
         for model in loaded.models {
             spawn_model(commands, &mut self.scene, model);

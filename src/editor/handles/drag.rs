@@ -33,6 +33,8 @@ pub enum HandleDrag {
         what: Moved,
         /// Parameters of ends worth meeting.
         ends: Vec<DVec2>,
+        /// The end that is met now.
+        met: Option<DVec2>,
     },
     /// Control points of the surface.
     Net {
@@ -86,7 +88,7 @@ impl HandleDrag {
                 ends.extend(still.map(|p| curve.points()[p]));
             }
         }
-        Some(Self::Trim { grip, offset, now: grip, what, ends })
+        Some(Self::Trim { grip, offset, now: grip, what, ends, met: None })
     }
 
     /// Follows the pointer to `at`; the operation to preview, if something changed.
@@ -99,17 +101,19 @@ impl HandleDrag {
         snaps: bool,
     ) -> Option<Operation> {
         match self {
-            Self::Trim { grip, offset, now, what, ends } => {
+            Self::Trim { grip, offset, now, what, ends, met } => {
                 let target = at + *offset;
                 let map = shapes.map.as_ref()?;
                 let ray = lens.camera.ray(lens.viewport.ndc(target), lens.viewport.aspect());
-                let mut uv = map.follow(&ray, *now)?;
+                let free = map.follow(&ray, *now)?;
+                *met = None;
                 if snaps {
                     let close = |e: &&DVec2| {
                         lens.project(map.point(**e)).is_some_and(|(p, _)| p.distance(target) <= SNAP_REACH_PX)
                     };
-                    uv = ends.iter().find(close).copied().unwrap_or(uv);
+                    *met = ends.iter().find(close).copied();
                 }
+                let uv = met.unwrap_or(free);
                 if uv == *now || !uv.is_finite() {
                     return None;
                 }

@@ -20,6 +20,9 @@ const MARKED_PX: f32 = 3.0;
 /// Side of a control point's mark.
 const POINT_PX: f32 = 8.0;
 
+/// Ring around what a drag meets.
+const SNAP_PX: f32 = 16.0;
+
 /// A straight line in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HandleLine {
@@ -73,6 +76,7 @@ struct Key {
     light: bool,
     linked: Option<DVec3>,
     axis: Option<(usize, DVec3)>,
+    met: Option<DVec3>,
     problems: u64,
     face: u64,
 }
@@ -98,6 +102,10 @@ pub(super) fn draw(
         Grip::Drag(HandleDrag::Net { axis: Some(axis), grip, .. }) => Some((*axis, *grip)),
         _ => None,
     };
+    let met = match &hand.grip {
+        Grip::Drag(HandleDrag::Trim { met: Some(uv), .. }) => shapes.map.as_ref().map(|m| m.point(*uv)),
+        _ => None,
+    };
     let key = Key {
         shapes: shapes.revision,
         selection: selection.revision,
@@ -105,6 +113,7 @@ pub(super) fn draw(
         light: palette.light,
         linked,
         axis,
+        met,
         problems: active.problems_revision,
         face: active.revision,
     };
@@ -118,6 +127,10 @@ pub(super) fn draw(
     painter.problems(&active, &palette);
     if let Some((axis, at)) = axis {
         painter.axis(&shapes, axis, at, &palette);
+    }
+    if let Some(at) = met {
+        let (fill, line) = (Color32::TRANSPARENT, painter.colors.snap);
+        painter.picture.marks.push(HandleMark { at, fill, line, size_px: SNAP_PX, round: true });
     }
     if let Some(at) = linked {
         let (fill, line) = (painter.colors.snap, painter.colors.point);
@@ -219,10 +232,10 @@ impl Painter<'_> {
         self.picture.marks.push(HandleMark { at, fill, line, size_px, round });
     }
 
-    /// Rings where something is wrong.
+    /// Rings where something is wrong. Notes are in the list of problems alone: nothing is drawn wrong there.
     fn problems(&mut self, active: &ActiveFace, palette: &Palette) {
         let Some(face) = &active.face else { return };
-        for problem in face.problems.iter().take(draw_problems::MOST) {
+        for problem in face.problems.iter().filter(|p| p.is_serious()).take(draw_problems::MOST) {
             let (at, line) = (face.point_in_space(problem.uv), draw_problems::color(problem, palette));
             let size_px = 2.0 * draw_problems::RING_PX;
             self.picture.marks.push(HandleMark {

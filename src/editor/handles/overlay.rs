@@ -9,9 +9,6 @@ use crate::editor::uv::{Colors, draw_problems};
 use crate::editor::viewport::Viewport;
 use crate::kernel::view::Camera;
 
-/// Most labels: more would cover the model.
-const MOST: usize = 8;
-
 /// Draws the labels.
 pub fn show(
     root: &Ui,
@@ -21,12 +18,15 @@ pub fn show(
     active: &ActiveFace,
     palette: &Palette,
 ) {
-    let Some(face) = active.face.as_ref().filter(|f| !f.problems.is_empty()) else { return };
+    let Some(face) = active.face.as_ref().filter(|f| f.problems.iter().any(|p| p.is_serious())) else {
+        return;
+    };
     let (lens, colors) = (Lens::new(camera, viewport), Colors::of(palette));
     let painter = root.painter().with_clip_rect(rect);
-    for problem in face.problems.iter().take(MOST) {
+    let mut labels = draw_problems::Labels::default();
+    for problem in face.problems.iter().filter(|p| p.is_serious()).take(draw_problems::MOST) {
         let Some((at, _)) = lens.project(face.point_in_space(problem.uv)) else { continue };
         let (text, color) = (draw_problems::label(problem), draw_problems::color(problem, palette));
-        draw_problems::words(&painter, pos2(at.x, at.y), text, color, colors.ruler);
+        labels.words(&painter, pos2(at.x, at.y), text, color, colors.ruler);
     }
 }

@@ -23,6 +23,8 @@ pub struct Findings {
     /// Faces measured again since the lines were made; none: all of them.
     dirty: Option<BTreeSet<usize>>,
     statistics: Statistics,
+    /// Millimetres of a model unit; 0 before the first measurement.
+    unit_mm: f64,
     /// Counts changes of the edges.
     pub revision: u64,
     failure: Option<String>,
@@ -70,7 +72,12 @@ impl Findings {
         self.inspection.as_ref()?.edge(key)
     }
 
-    /// Counts and gaps of all edges.
+    /// Millimetres of a model unit.
+    pub fn unit(&self) -> f64 {
+        if self.unit_mm > 0.0 { self.unit_mm } else { 1.0 }
+    }
+
+    /// Counts and gaps of all edges, in millimetres.
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
     }
@@ -92,9 +99,10 @@ impl Findings {
     }
 
     /// Starts measuring `faces`; what was measured before stays until the new result is there.
-    pub(super) fn start(&mut self, scene: u64, faces: Vec<(Entity, FaceParts)>, waker: &Waker) {
+    pub(super) fn start(&mut self, scene: u64, faces: Vec<(Entity, FaceParts)>, unit: f64, waker: &Waker) {
         self.scene = Some(scene);
         self.failure = None;
+        self.unit_mm = unit;
         let (entities, parts): (Vec<Entity>, Vec<FaceParts>) = faces.into_iter().unzip();
         let (send, result) = mpsc::channel();
         let waker = waker.clone();
@@ -103,7 +111,7 @@ impl Findings {
             let records: Vec<_> = parts.iter().map(FaceParts::to_record).collect();
             drop(parts);
             // A defect in measuring costs the figures, not the program.
-            let inspected = std::panic::catch_unwind(|| Inspection::of(&records));
+            let inspected = std::panic::catch_unwind(|| Inspection::in_unit(&records, unit));
             if let Ok(inspection) = inspected {
                 // Fails only when nobody waits any more.
                 let _ = send.send(inspection);
@@ -177,6 +185,7 @@ impl Findings {
     /// Counts again after edges changed.
     pub(super) fn settle(&mut self) {
         self.statistics = self.inspection.as_ref().map(Statistics::of).unwrap_or_default();
+        self.statistics.scale(self.unit());
         self.revision += 1;
     }
 }

@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use super::Findings;
-use crate::editor::object::{FaceChange, Records, Scene};
+use crate::editor::object::{FaceChange, Model, Records, Scene};
 use crate::editor::redraw::Waker;
 use crate::editor::settings::Settings;
 
@@ -15,6 +15,7 @@ pub(super) fn measure(
     settings: Res<Settings>,
     scene: Res<Scene>,
     records: Records,
+    models: Query<&Model>,
     waker: Res<Waker>,
     mut changes: MessageReader<FaceChange>,
     mut findings: ResMut<Findings>,
@@ -34,7 +35,7 @@ pub(super) fn measure(
         return;
     }
     if findings.scene != Some(scene.revision) {
-        start(&mut findings, &scene, &records, &waker);
+        start(&mut findings, &scene, &records, &models, &waker);
         return;
     }
     for face in &changed {
@@ -49,7 +50,7 @@ pub(super) fn measure(
     stale.sort_unstable();
     stale.dedup();
     if stale.len() > AT_ONCE {
-        start(&mut findings, &scene, &records, &waker);
+        start(&mut findings, &scene, &records, &models, &waker);
         return;
     }
     for face in stale {
@@ -60,8 +61,11 @@ pub(super) fn measure(
     findings.settle();
 }
 
-fn start(findings: &mut Findings, scene: &Scene, records: &Records, waker: &Waker) {
+/// Figures are in the unit of the first model: all of them lie in one space.
+fn start(findings: &mut Findings, scene: &Scene, records: &Records, models: &Query<&Model>, waker: &Waker) {
+    let first = scene.models.first().and_then(|m| models.get(m.entity).ok());
+    let unit = first.map_or(1.0, |m| m.unit.millimetres);
     let faces = scene.models.iter().flat_map(|m| &m.order);
     let parts = faces.filter_map(|face| Some((*face, records.parts(*face)?))).collect();
-    findings.start(scene.revision, parts, waker);
+    findings.start(scene.revision, parts, unit, waker);
 }

@@ -87,8 +87,10 @@ pub(super) fn update(
             continue;
         };
         kept.insert(*key, (*first, points.clone()));
-        let rank = if chosen.edge == Some(*key) { 2 } else { u8::from(is_defect(edge, choices.tolerance)) };
-        all.push((rank, EdgeLine { points, colour: ramp::of_edge(edge), width: WIDTHS[usize::from(rank)] }));
+        let defect = is_defect(edge, choices.tolerance / findings.unit());
+        let rank = if chosen.edge == Some(*key) { 2 } else { u8::from(defect) };
+        let (colour, width) = (ramp::of_edge(edge, findings.unit()), WIDTHS[usize::from(rank)]);
+        all.push((rank, EdgeLine { points, colour, width }));
     }
     all.sort_by_key(|(rank, _)| *rank);
     made.points = kept;

@@ -2,7 +2,7 @@
 //!
 //! Wiring: while the inspection is on, `follow` measures in the background after something was opened, and in the
 //! same frame after an edit (only edges of changed faces); `choose` serves the tour (next and previous defect) and
-//! flies to the edge chosen; `probe` measures at the pointer. Panels show [`Findings`] through [`Rows`];
+//! flies to the edge chosen; `mend` closes its gap; `probe` measures at the pointer. Panels show [`Findings`] through [`Rows`];
 //! `render` draws [`EdgeLines`] in the colours of [`ramp`].
 //!
 //! Faces are numbered here through all models, in the order of the scene: [`Findings::face`] finds the entity.
@@ -11,6 +11,7 @@ mod choose;
 mod findings;
 mod follow;
 mod lines;
+mod mend;
 mod pin_holes;
 mod probe;
 pub mod ramp;
@@ -21,6 +22,7 @@ use bevy::prelude::*;
 pub use choose::{Chosen, InspectRequest};
 pub use findings::{Findings, Progress};
 pub use lines::{EdgeLine, EdgeLines};
+pub use mend::{CloseGap, MendChoices, MendOutcome, can_close};
 pub use pin_holes::PinHoles;
 pub use probe::{Probe, local_gap};
 pub use rows::{Column, Filter, Order, Row, Rows};
@@ -52,6 +54,9 @@ pub struct InspectionPlugin;
 impl Plugin for InspectionPlugin {
     fn build(&self, app: &mut App) {
         app.add_message::<InspectRequest>()
+            .add_message::<CloseGap>()
+            .init_resource::<MendChoices>()
+            .init_resource::<MendOutcome>()
             .init_resource::<InspectionChoices>()
             .init_resource::<Findings>()
             .init_resource::<Rows>()
@@ -59,10 +64,17 @@ impl Plugin for InspectionPlugin {
             .init_resource::<EdgeLines>()
             .init_resource::<Chosen>()
             .init_resource::<Probe>()
-            .add_systems(Update, choose::command_requests.in_set(EditorSystems::Tools))
+            .add_systems(Update, (choose::command_requests, mend::serve).in_set(EditorSystems::Tools))
             .add_systems(
                 Update,
-                (follow::measure, rows::update, choose::serve, lines::update, probe::at_pointer)
+                (
+                    follow::measure,
+                    mend::report,
+                    rows::update,
+                    choose::serve,
+                    lines::update,
+                    probe::at_pointer,
+                )
                     .chain()
                     .after(EditorSystems::Derive)
                     .before(EditorSystems::Present),

@@ -23,7 +23,7 @@ pub struct Probe {
 }
 
 impl Probe {
-    /// The distance measured, millimetres.
+    /// The distance measured, model units.
     pub fn distance(&self) -> Option<f64> {
         self.reading.map(|(_, [a, b])| a.distance(b))
     }

@@ -40,13 +40,13 @@ pub fn colour(mm: f64) -> [u8; 3] {
     })
 }
 
-/// The colour of an edge by its kind and gap.
-pub fn of_edge(edge: &Edge) -> [u8; 3] {
+/// The colour of an edge by its kind and gap, of which one is `unit` millimetres.
+pub fn of_edge(edge: &Edge, unit: f64) -> [u8; 3] {
     match edge.kind {
         EdgeKind::Naked => NAKED,
         EdgeKind::NonManifold => NON_MANIFOLD,
         EdgeKind::Degenerate => CLOSED,
-        EdgeKind::Shared | EdgeKind::Seam => edge.gap.map_or(CLOSED, |g| colour(g.maximum)),
+        EdgeKind::Shared | EdgeKind::Seam => edge.gap.map_or(CLOSED, |g| colour(unit * g.maximum)),
     }
 }
 

@@ -93,6 +93,8 @@ impl Default for Order {
 pub struct Rows {
     /// In the order shown.
     pub rows: Vec<Row>,
+    /// Counts how often they were made.
+    pub revision: u64,
     made_from: Option<(u64, u64, InspectionChoices)>,
 }
 
@@ -110,6 +112,7 @@ pub(super) fn update(
         return;
     }
     rows.made_from = Some(key);
+    rows.revision += 1;
     rows.rows.clear();
     let Some(inspection) = findings.inspection() else { return };
     let number = |face: usize| {
@@ -122,7 +125,7 @@ pub(super) fn update(
     let made = inspection
         .edges()
         .filter(|(_, edge)| !choices.filter.selected_only || is_selected(edge))
-        .map(|(key, edge)| Row::of(*key, edge, number))
+        .map(|(key, edge)| Row::of(*key, edge, findings.unit(), number))
         .filter(|row| choices.filter.passes(row, choices.tolerance));
     let made: Vec<Row> = made.collect();
     rows.rows = made;
@@ -131,15 +134,15 @@ pub(super) fn update(
 }
 
 impl Row {
-    fn of(key: EdgeKey, edge: &Edge, number: impl Fn(usize) -> Option<usize>) -> Self {
+    fn of(key: EdgeKey, edge: &Edge, unit: f64, number: impl Fn(usize) -> Option<usize>) -> Self {
         Self {
             key,
             kind: edge.kind,
             faces: edge.faces().into_iter().filter_map(number).collect(),
-            gap: edge.gap.map(|g| g.maximum),
-            mean: edge.gap.map(|g| g.mean),
+            gap: edge.gap.map(|g| unit * g.maximum),
+            mean: edge.gap.map(|g| unit * g.mean),
             sense: edge.gap.map(|g| g.sense),
-            length: edge.length(),
+            length: unit * edge.length(),
             angle: edge.gap.map(|g| g.angle),
         }
     }

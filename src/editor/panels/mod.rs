@@ -217,7 +217,8 @@ fn show(
     inspection::overlay(&root, rect, &reads, &owned.viewport, &inspection);
     view_cube::show(&root, rect, &reads, &mut writes);
     progress::show(&ctx, rect, &reads, &mut writes);
-    notice::show(&ctx, rect, &reads.palette, &mut owned.notices);
+    let beside_legend = inspection::beside_legend(rect, &reads, &inspection);
+    notice::show(&ctx, beside_legend, &reads.palette, &mut owned.notices);
     help::show(&ctx, &reads.palette, &mut owned.state.help);
     about::show(&ctx, &reads.palette, &mut owned.state.about);
     command_palette::show(&ctx, &reads, &mut owned.state.palette, &mut writes);

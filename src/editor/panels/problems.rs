@@ -85,7 +85,13 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes, owned: &mu
         ui.horizontal(|ui| {
             ui.heading("Problems");
             ui.add_space(8.0);
-            ui.label(RichText::new(plural(state.lines.len(), "problem")).color(reads.palette.weak));
+            let serious = state.lines.iter().filter(|l| l.severity > Severity::Note).count();
+            let notes = state.lines.len() - serious;
+            let text = match notes {
+                0 => plural(serious, "problem"),
+                _ => format!("{}, {}", plural(serious, "problem"), plural(notes, "note")),
+            };
+            ui.label(RichText::new(text).color(reads.palette.weak));
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let (rect, response) = ui.allocate_exact_size(vec2(24.0, 22.0), Sense::click());
                 icon::paint(ui.painter(), rect, Icon::Cross, reads.palette.weak);

@@ -24,10 +24,14 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, selection: &Selection) {
                 let text = format!("{} selected", plural(selection.faces().len(), "face"));
                 ui.label(RichText::new(text).color(reads.palette.accent));
             }
-            if reads.problems.count() > 0 {
+            let (all, serious) = (reads.problems.count(), reads.problems.serious_count());
+            if all > 0 {
                 separator(ui, reads);
-                let text = format!("{} (F3)", plural(reads.problems.count(), "problem"));
-                ui.label(RichText::new(text).color(reads.palette.warning));
+                let (text, color) = match serious {
+                    0 => (plural(all, "note"), reads.palette.weak),
+                    _ => (plural(serious, "problem"), reads.palette.warning),
+                };
+                ui.label(RichText::new(format!("{text} (F3)")).color(color));
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| figures(ui, reads));
         });
@@ -70,23 +74,33 @@ fn figures(ui: &mut Ui, reads: &Reads) {
         format!("{} / {} samples", figures.samples, figures.samples_wanted)
     };
     let entries = [
-        (memory, "Memory of the program and of the model on the GPU"),
-        (plural(curves, "trim curve"), "Trim curves of all open faces"),
-        (plural(faces, "face"), "Faces of all open models"),
-        (samples, "Samples per pixel; the picture refines while nothing moves"),
-        (format!("GPU {gpu}"), "Time the GPU took for the model in the last frame"),
         (format!("Frame {:.1} ms", figures.frame_ms), "Time the last frame took; at rest no frame is drawn"),
+        (format!("GPU {gpu}"), "Time the GPU took for the model in the last frame"),
+        (memory, "Memory of the program and of the model on the GPU"),
+        (plural(faces, "face"), "Faces of all open models"),
+        (plural(curves, "trim curve"), "Trim curves of all open faces"),
+        (samples, "Samples per pixel; the picture refines while nothing moves"),
     ];
     let edit = figures.edit;
     let cost = format!("Edit {:.2} ms, {} uploaded", 1e3 * edit.time.as_secs_f64(), bytes(edit.bytes));
     let hint = "Processor time from the last edit to its upload, and the bytes uploaded";
-    let entries: Vec<_> = entries.into_iter().chain((edit.edits > 0).then_some((cost, hint))).collect();
-    let count = entries.len();
-    for (i, (text, hint)) in entries.into_iter().enumerate() {
-        ui.add(Label::new(RichText::new(text).color(reads.palette.weak))).on_hover_text(hint);
-        if i + 1 < count {
+    let first = (edit.edits > 0).then_some((cost, hint));
+    // From the right end on; what has no room is left out, so that nothing lies on what is said on the left.
+    for (i, (text, hint)) in first.into_iter().chain(entries).enumerate() {
+        let text = RichText::new(text).color(reads.palette.weak);
+        let galley = egui::WidgetText::from(text.clone()).into_galley(
+            ui,
+            Some(egui::TextWrapMode::Extend),
+            f32::INFINITY,
+            egui::TextStyle::Small,
+        );
+        if galley.size().x + 3.0 * ui.spacing().item_spacing.x + 8.0 > ui.available_width() {
+            break;
+        }
+        if i > 0 {
             separator(ui, reads);
         }
+        ui.add(Label::new(text)).on_hover_text(hint);
     }
 }
 

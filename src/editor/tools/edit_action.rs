@@ -13,6 +13,7 @@ pub enum EditAction {
     AddCircle,
     AddEllipse,
     AddPolyline,
+    AddText,
     MoveBy,
     Rotate,
     Scale,
@@ -98,6 +99,7 @@ impl EditAction {
             | Self::AddCircle
             | Self::AddEllipse
             | Self::AddPolyline
+            | Self::AddText
             | Self::Untrim
             | Self::InsertKnotU
             | Self::InsertKnotV
@@ -118,6 +120,7 @@ impl EditAction {
                 &["Centre u", "Centre v", "Radius along u", "Radius along v", "Turned by (degrees)"]
             }
             Self::AddPolyline => &["Points: u v, u v, u v, …"],
+            Self::AddText => &["Text", "Middle u", "Middle v", "Height of capitals"],
             Self::MoveBy => &["By u", "By v"],
             Self::Rotate => &["Degrees, counter-clockwise"],
             Self::Scale => &["Factor along u", "Factor along v"],

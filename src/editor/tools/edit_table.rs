@@ -39,7 +39,7 @@ const fn key(c: char) -> Shortcut {
 }
 
 /// The rows, menu by menu.
-pub(super) const ROWS: [Command; 39] = [
+pub(super) const ROWS: [Command; 40] = [
     row(Menu::Edit, Cut, "edit.cut", "Cut loops", &[key('x').ctrl()]).separated(),
     row(Menu::Edit, Copy, "edit.copy", "Copy loops", &[key('c').ctrl()]),
     row(Menu::Edit, Paste, "edit.paste", "Paste loops", &[key('v').ctrl()]),
@@ -49,6 +49,7 @@ pub(super) const ROWS: [Command; 39] = [
     row(Menu::Loop, AddCircle, "loop.circle", "Add circle…", &[key('c').shift()]),
     row(Menu::Loop, AddEllipse, "loop.ellipse", "Add ellipse…", &[key('e').shift()]),
     row(Menu::Loop, AddPolyline, "loop.polyline", "Add polyline…", &[key('l').shift()]),
+    row(Menu::Loop, AddText, "loop.text", "Add text…", &[key('t').shift()]),
     row(Menu::Loop, MoveBy, "loop.move", "Move by…", &[key('m').shift()]).separated(),
     row(Menu::Loop, Rotate, "loop.rotate", "Rotate…", &[key('a').shift()]),
     row(Menu::Loop, Scale, "loop.scale", "Scale…", &[key('s').shift()]),

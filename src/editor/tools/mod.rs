@@ -4,18 +4,23 @@
 //! keeps [`Situation`] up to date; each capability reads the requests it serves in `Tools`.
 
 mod command;
+mod display_table;
 mod edit_action;
 mod edit_table;
+mod file_table;
 mod key;
 mod keyboard;
+mod mouse;
 mod search;
 mod situation;
+mod view_table;
 
 use bevy::prelude::*;
 
-pub use command::{Action, COMMANDS, Command, CommandRequest, MOUSE_HELP, Menu};
+pub use command::{Action, COMMANDS, Command, CommandRequest, Menu};
 pub use edit_action::{EditAction, Needs};
 pub use key::{KeyCap, Modifiers, Shortcut};
+pub use mouse::MOUSE_HELP;
 pub use search::find;
 pub use situation::{CurrentSituation, Situation};
 

@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use crate::editor::editing::{Clipboard, Editing};
 use crate::editor::elements::{ActiveFace, ElementSelection};
 use crate::editor::files::Loading;
-use crate::editor::inspection::Findings;
+use crate::editor::inspection::{Chosen, Findings, can_close};
 use crate::editor::object::{FaceChange, Scene, Shown};
 use crate::editor::selection::Selection;
 
@@ -26,6 +26,8 @@ pub struct Situation {
     pub loading: bool,
     /// Edges have been measured.
     pub inspection: bool,
+    /// An edge with a gap between two sides is chosen.
+    pub gap: bool,
     /// There is something that no file holds.
     pub unsaved: bool,
     /// There is a face whose trims can be edited.
@@ -52,6 +54,7 @@ impl Situation {
         redo: true,
         loading: true,
         inspection: true,
+        gap: true,
         unsaved: true,
         face: true,
         loops: 1,
@@ -73,6 +76,7 @@ pub(super) fn observe(
     selection: Res<Selection>,
     loading: Res<Loading>,
     findings: Res<Findings>,
+    chosen: Res<Chosen>,
     editing: Res<Editing>,
     active: Res<ActiveFace>,
     elements: Res<ElementSelection>,
@@ -99,6 +103,7 @@ pub(super) fn observe(
         redo: !editing.is_dragging() && editing.history().redo_count() > 0,
         loading: loading.is_active(),
         inspection: findings.inspection().is_some(),
+        gap: chosen.edge.and_then(|key| findings.edge(&key)).is_some_and(can_close),
         unsaved: editing.is_unsaved(),
         face: face.is_some(),
         loops: elements.map_or(0, |e| e.loops().len()),

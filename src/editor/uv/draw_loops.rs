@@ -215,7 +215,7 @@ pub fn weights(painter: &Painter, view: &UvView, face: &FaceInHand, shown: &Show
     const MOST: usize = 120;
     let area = canvas(view);
     let font = FontId::proportional(10.5);
-    let mut count = 0;
+    let (mut count, mut taken) = (0, Vec::new());
     for (_, record) in face.loops.iter().enumerate().filter(|(l, _)| shown.includes(*l)) {
         for curve in record.curves.iter().filter(|c| c.is_rational()) {
             for (uv, weight) in curve.points().iter().zip(curve.weights()) {
@@ -229,13 +229,13 @@ pub fn weights(painter: &Painter, view: &UvView, face: &FaceInHand, shown: &Show
                 }
                 let text = format!("{weight:.3}");
                 let text = text.trim_end_matches('0').trim_end_matches('.');
-                painter.text(
-                    place + vec2(7.0, -4.0),
-                    Align2::LEFT_BOTTOM,
-                    text,
-                    font.clone(),
-                    colors.ruler_text,
-                );
+                let galley = painter.layout_no_wrap(text.to_owned(), font.clone(), colors.ruler_text);
+                let rect = Align2::LEFT_BOTTOM.anchor_size(place + vec2(7.0, -4.0), galley.size());
+                // Where points are close to each other one has to zoom in anyway.
+                if taken.iter().all(|other: &Rect| !other.intersects(rect)) {
+                    painter.galley(rect.min, galley, colors.ruler_text);
+                    taken.push(rect);
+                }
             }
         }
     }

@@ -78,13 +78,16 @@ fn right(ui: &mut Ui, params: &mut UvParams) {
 
 fn snapping(ui: &mut Ui, params: &mut UvParams) {
     let on = params.panel.snapping.on;
-    let hint = "Snap   N (Ctrl while dragging turns it round)\nRight click: to what";
+    let hint = "Snap   N (Ctrl while dragging turns it round)";
+    // From right to left.
+    let (narrow, arrow) = ui.allocate_exact_size(vec2(14.0, 26.0), Sense::click());
+    paint(ui, narrow, Icon::Down, false, arrow.hovered(), params);
     let (rect, response) = ui.allocate_exact_size(vec2(28.0, 26.0), Sense::click());
     paint(ui, rect, Icon::Magnet, on, response.hovered(), params);
     if response.clicked() {
         params.panel.snapping.on = !on;
     }
-    egui::Popup::context_menu(&response).show(|ui| {
+    egui::Popup::menu(&arrow).close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
         let snap = &mut params.panel.snapping;
         ui.checkbox(&mut snap.points, "End and control points");
         ui.checkbox(&mut snap.curves, "Curves");
@@ -92,6 +95,7 @@ fn snapping(ui: &mut Ui, params: &mut UvParams) {
         ui.checkbox(&mut snap.grid, "Grid");
     });
     response.on_hover_text(hint);
+    arrow.on_hover_text("What to snap to");
 }
 
 fn tool_icon(tool: Tool) -> Icon {

@@ -5,9 +5,12 @@ use bevy_egui::egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Stro
 use crate::editor::inspection::ramp;
 use crate::editor::theme::{Palette, size};
 
+/// Height of it with the margin below.
+pub(super) const HEIGHT: f32 = 66.0;
+
 /// Draws it.
 pub(super) fn show(painter: &Painter, viewport: Rect, palette: &Palette) {
-    let area = Rect::from_min_size(pos2(viewport.min.x + 14.0, viewport.max.y - 66.0), vec2(340.0, 56.0));
+    let area = Rect::from_min_size(pos2(viewport.min.x + 14.0, viewport.max.y - HEIGHT), vec2(340.0, 56.0));
     if viewport.width() < area.width() + 40.0 || viewport.height() < 160.0 {
         return;
     }

@@ -17,14 +17,15 @@ const APART: f32 = 5.0;
 
 /// Draws the lines.
 pub(super) fn show(painter: &Painter, reads: &Reads, viewport: &Viewport, state: &InspectionState) {
+    let unit = state.findings.unit();
     let chosen = state.chosen.edge.and_then(|key| state.findings.edge(&key)).and_then(|edge| edge.gap);
     if let Some(gap) = chosen {
         let [a, b] = gap.between.map(|end| end.point);
-        let text = format!("{} {}", Length { mm: gap.maximum }, sense(gap.sense));
+        let text = format!("{} {}", Length { mm: unit * gap.maximum }, sense(gap.sense));
         dimension(painter, reads, viewport, [a, b], &text, reads.palette.accent, true);
     }
     if let Some((_, points)) = state.probe.reading {
-        let text = Length { mm: points[0].distance(points[1]) }.to_string();
+        let text = Length { mm: unit * points[0].distance(points[1]) }.to_string();
         dimension(painter, reads, viewport, points, &text, reads.palette.strong, chosen.is_none());
     }
 }

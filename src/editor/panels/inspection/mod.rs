@@ -4,6 +4,7 @@ mod histogram;
 mod holes;
 mod legend;
 mod measure;
+mod mend;
 mod table;
 
 use bevy::ecs::system::SystemParam;
@@ -15,7 +16,8 @@ use super::format::{count, plural};
 use super::icon::{self, Icon};
 use super::{Reads, Writes};
 use crate::editor::inspection::{
-    Chosen, Findings, InspectRequest, InspectionChoices, PinHoles, Probe, Progress, Rows, ramp,
+    Chosen, CloseGap, Findings, InspectRequest, InspectionChoices, MendChoices, MendOutcome, PinHoles, Probe,
+    Progress, Rows, ramp,
 };
 use crate::editor::theme::Palette;
 use crate::editor::tools::{Action, CommandRequest};
@@ -32,7 +34,10 @@ pub(super) struct InspectionState<'w> {
     probe: Res<'w, Probe>,
     holes: Res<'w, PinHoles>,
     choices: ResMut<'w, InspectionChoices>,
+    mend: ResMut<'w, MendChoices>,
+    outcome: Res<'w, MendOutcome>,
     requests: MessageWriter<'w, InspectRequest>,
+    close: MessageWriter<'w, CloseGap>,
 }
 
 /// Width of the summary, points.
@@ -45,6 +50,8 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes, state: &mu
     let panel =
         egui::Panel::bottom("inspection").frame(frame).default_size(270.0).min_size(150.0).max_size(600.0);
     panel.resizable(true).show(root, |ui| {
+        // As high while there is nothing to show yet.
+        ui.set_min_height(ui.available_height());
         head(ui, reads, writes, state);
         ui.add_space(4.0);
         match state.findings.progress() {
@@ -60,7 +67,10 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes, state: &mu
                         histogram::show(ui, &reads.palette, state);
                     });
                     ui.add_space(10.0);
-                    ui.vertical(|ui| table::show(ui, reads, writes, state));
+                    ui.vertical(|ui| {
+                        mend::show(ui, reads, writes, state);
+                        table::show(ui, reads, writes, state);
+                    });
                 });
             }
         }
@@ -80,6 +90,13 @@ pub(super) fn overlay(root: &Ui, rect: Rect, reads: &Reads, viewport: &Viewport,
         holes::show(&painter, rect, reads, &state.holes);
     }
     measure::show(&painter, reads, viewport, state);
+}
+
+/// What of the viewport the legend leaves to notices.
+pub(super) fn beside_legend(rect: Rect, reads: &Reads, state: &InspectionState) -> Rect {
+    let shown = reads.settings.inspection && state.choices.colours && state.findings.inspection().is_some();
+    let height = if shown { legend::HEIGHT } else { 0.0 };
+    Rect::from_min_max(rect.min, rect.max - vec2(0.0, height))
 }
 
 fn hint(ui: &mut Ui, reads: &Reads, text: &str) {

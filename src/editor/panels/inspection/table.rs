@@ -7,11 +7,11 @@ use bevy_egui::egui::{
 
 use super::InspectionState;
 use super::measure::sense;
-use crate::editor::inspection::{Column, InspectRequest, Row, ramp};
+use crate::editor::inspection::{CloseGap, Column, InspectRequest, Row, can_close, ramp};
 use crate::editor::panels::format::plural;
 use crate::editor::panels::{Reads, Writes};
 use crate::editor::theme::size;
-use crate::inspect::{EdgeKind, Length};
+use crate::inspect::{EdgeKey, EdgeKind, Length};
 
 /// Columns with their heads and shares of the width.
 const COLUMNS: [(Column, &str, f32, &str); 7] = [
@@ -24,6 +24,33 @@ const COLUMNS: [(Column, &str, f32, &str); 7] = [
     (Column::Angle, "Angle", 0.11, "Largest angle between the tangent planes of the two sides"),
 ];
 
+/// What was asked for an edge.
+enum Asked {
+    Choose,
+    Fly,
+    Close,
+}
+
+fn seen_id(ui: &Ui) -> egui::Id {
+    ui.id().with("seen")
+}
+
+/// How far to scroll so that the chosen edge is seen, after another was chosen or rows changed places.
+fn offset_of_chosen(ui: &Ui, state: &InspectionState) -> Option<f32> {
+    let key = state.chosen.edge?;
+    let now = (key, state.rows.revision);
+    let id = ui.id().with("chosen");
+    if ui.data_mut(|d| d.get_temp::<(EdgeKey, u64)>(id) == Some(now)) {
+        return None;
+    }
+    ui.data_mut(|d| d.insert_temp(id, now));
+    let at = state.rows.rows.iter().position(|r| r.key == key)?;
+    let (offset, height) = ui.data_mut(|d| d.get_temp::<(f32, f32)>(seen_id(ui)))?;
+    let top = at as f32 * size::ROW;
+    let is_seen = top >= offset && top + size::ROW <= offset + height;
+    (!is_seen).then_some((top - 0.5 * (height - size::ROW)).max(0.0))
+}
+
 /// Shows the table.
 pub(super) fn show(ui: &mut Ui, reads: &Reads, writes: &mut Writes, state: &mut InspectionState) {
     let width = ui.available_width() - 10.0;
@@ -34,22 +61,41 @@ pub(super) fn show(ui: &mut Ui, reads: &Reads, writes: &mut Writes, state: &mut 
         ui.label(RichText::new("No edge passes the filter").color(reads.palette.weak));
         return;
     }
-    let mut clicked = None;
-    egui::ScrollArea::vertical().auto_shrink(false).show_rows(
-        ui,
-        size::ROW,
-        state.rows.rows.len(),
-        |ui, range| {
-            for row in &state.rows.rows[range] {
-                let chosen = state.chosen.edge == Some(row.key);
-                if line(ui, width, row, chosen, state.choices.tolerance, reads) {
-                    clicked = Some(row.key);
-                }
+    let mut asked = None;
+    let mut area = egui::ScrollArea::vertical().auto_shrink(false);
+    if let Some(offset) = offset_of_chosen(ui, state) {
+        area = area.vertical_scroll_offset(offset);
+    }
+    let count = state.rows.rows.len();
+    let shown = area.show_rows(ui, size::ROW, count, |ui, range| {
+        for row in &state.rows.rows[range] {
+            let chosen = state.chosen.edge == Some(row.key);
+            let response = line(ui, width, row, chosen, state.choices.tolerance, reads);
+            if response.clicked() {
+                asked = Some((row.key, Asked::Fly));
+            } else if response.secondary_clicked() {
+                asked = Some((row.key, Asked::Choose));
             }
-        },
-    );
-    if let Some(edge) = clicked {
-        state.requests.write(InspectRequest::Choose { edge, fly: true });
+            let can_close = state.findings.edge(&row.key).is_some_and(can_close);
+            response.context_menu(|ui| {
+                if ui.button("Go there").clicked() {
+                    asked = Some((row.key, Asked::Fly));
+                }
+                let limit = Length { mm: state.mend.tolerance };
+                let button = ui.add_enabled(can_close, egui::Button::new(format!("Close gap to {limit}")));
+                if button.clicked() {
+                    asked = Some((row.key, Asked::Close));
+                }
+            });
+        }
+    });
+    ui.data_mut(|d| d.insert_temp(seen_id(ui), (shown.state.offset.y, shown.inner_rect.height())));
+    if let Some((edge, what)) = asked {
+        match what {
+            Asked::Choose => drop(state.requests.write(InspectRequest::Choose { edge, fly: false })),
+            Asked::Fly => drop(state.requests.write(InspectRequest::Choose { edge, fly: true })),
+            Asked::Close => drop(state.close.write(CloseGap(edge))),
+        }
         writes.redraw.write(RequestRedraw);
     }
 }
@@ -92,7 +138,7 @@ fn cells(rect: Rect) -> impl Iterator<Item = Rect> {
     })
 }
 
-fn line(ui: &mut Ui, width: f32, row: &Row, chosen: bool, tolerance: f64, reads: &Reads) -> bool {
+fn line(ui: &mut Ui, width: f32, row: &Row, chosen: bool, tolerance: f64, reads: &Reads) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(vec2(width, size::ROW), Sense::click());
     let palette = &reads.palette;
     if chosen || response.hovered() {
@@ -141,5 +187,5 @@ fn line(ui: &mut Ui, width: f32, row: &Row, chosen: bool, tolerance: f64, reads:
         };
         painter.text(at, Align2::LEFT_CENTER, text, font.clone(), colour);
     }
-    response.clicked()
+    response
 }
