@@ -32,9 +32,12 @@ pub(crate) fn regions<'a>(carrier: &SplineCarrier, loops: &[&'a LoopRecord]) -> 
         .collect();
     let holes_only = loops.iter().all(|l| l.role == LoopRole::Inner);
     let depth = |i: usize| holders[i].len() + usize::from(holes_only);
+    // A hole cannot hold what is said to bound the face from outside: then one of the two is mislabelled.
+    let holds_an_outer =
+        |i: usize| (0..loops.len()).any(|j| loops[j].role == LoopRole::Outer && holders[j].contains(&i));
     let bounds_a_part = |i: usize| {
-        depth(i) % 2 == 0
-            && (loops[i].role != LoopRole::Inner || depth(i) >= 2)
+        depth(i).is_multiple_of(2)
+            && (loops[i].role != LoopRole::Inner || depth(i) >= 2 || holds_an_outer(i))
             && !loops[i].curves.is_empty()
     };
     let outer: Vec<usize> = (0..loops.len()).filter(|i| bounds_a_part(*i)).collect();
@@ -146,6 +149,11 @@ mod tests {
         let two = [square(0.0, LoopRole::Unknown), square(5.0, LoopRole::Unknown)];
         let list: Vec<&LoopRecord> = two.iter().collect();
         assert_eq!(regions(&carrier, &list).len(), 2);
+        // Some programs list a hole of a cylinder as the outer loop of its face.
+        let mut swapped = [square(0.25, LoopRole::Outer), square(0.0, LoopRole::Inner)];
+        swapped[0].curves = demo_rectangle(DVec2::splat(0.25), DVec2::splat(0.75));
+        let list: Vec<&LoopRecord> = swapped.iter().collect();
+        assert_eq!(regions(&carrier, &list), [Region { outer: Some(&swapped[1]), inner: vec![&swapped[0]] }]);
         let holes = [square(0.0, LoopRole::Inner), square(5.0, LoopRole::Inner)];
         let list: Vec<&LoopRecord> = holes.iter().collect();
         assert_eq!(regions(&carrier, &list), [Region { outer: None, inner: vec![&holes[0], &holes[1]] }]);
