@@ -203,6 +203,20 @@ impl Args {
         (0..count).map(|_| self.real(what)).collect()
     }
 
+    /// Knots: like [`Self::reals`], but one that falls behind its neighbour by rounding alone (programs that
+    /// compute repeated knots differently) is lifted to it.
+    pub(crate) fn knots(&mut self, what: &'static str, count: usize) -> Result<Vec<f64>, EntityError> {
+        const ROUNDING: f64 = 1e-12;
+        let mut knots = self.reals(what, count)?;
+        let slack = ROUNDING * knots.iter().fold(0.0_f64, |most, k| most.max(k.abs()));
+        for i in 1..knots.len() {
+            if knots[i] < knots[i - 1] && knots[i - 1] - knots[i] <= slack {
+                knots[i] = knots[i - 1];
+            }
+        }
+        Ok(knots)
+    }
+
     /// A string; numbers are taken as written, blanks are empty.
     pub(crate) fn text(&mut self) -> String {
         match self.take().1 {
@@ -215,5 +229,22 @@ impl Args {
     /// Leaves out `count` fields.
     pub(crate) fn skip(&mut self, count: usize) {
         self.next = self.next.saturating_add(count);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn knots_that_fall_behind_by_rounding_are_lifted_and_others_left() {
+        let read = |text: &str| {
+            let (fields, _) = fields(text.as_bytes(), Delimiters::default());
+            Args::new(fields).knots("knot", 5).unwrap()
+        };
+        let third = 0.1 + 0.2;
+        assert_eq!(read(&format!("126,0.,{third:?},0.3,0.5,1.;")), [0.0, third, third, 0.5, 1.0]);
+        // An error elsewhere: nothing is invented.
+        assert_eq!(read("126,0.,0.31,0.3,0.5,1.;"), [0.0, 0.31, 0.3, 0.5, 1.0]);
     }
 }

@@ -9,7 +9,7 @@ pub(crate) fn read(args: &mut Args, scale: f64) -> Result<NurbsCurve3, EntityErr
     let last = args.count("upper index K", 4)?;
     let degree = args.count("degree M", 0)?;
     args.skip(4); // planar, closed, polynomial, periodic: all derivable
-    let knots = args.reals("knot", last + degree + 2)?;
+    let knots = args.knots("knot", last + degree + 2)?;
     let weights = args.reals("weight", last + 1)?;
     let points =
         (0..=last).map(|_| args.point("control point", scale)).collect::<Result<Vec<_>, EntityError>>()?;

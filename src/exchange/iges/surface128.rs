@@ -17,8 +17,8 @@ pub(crate) fn read(args: &mut Args, scale: f64) -> Result<NurbsSurface, EntityEr
         let left = args.left();
         return Err(EntityError::Count { what: "(K1+1)(K2+1)", count: needed / 4.0, needed, left });
     }
-    let knots_u = args.reals("knot in u", nu + du + 1)?;
-    let knots_v = args.reals("knot in v", nv + dv + 1)?;
+    let knots_u = args.knots("knot in u", nu + du + 1)?;
+    let knots_v = args.knots("knot in v", nv + dv + 1)?;
     let weights = args.reals("weight", nu * nv)?;
     let points =
         (0..nu * nv).map(|_| args.point("control point", scale)).collect::<Result<Vec<_>, EntityError>>()?;
