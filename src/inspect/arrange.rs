@@ -15,6 +15,8 @@ use super::scale::Scale;
 const ROUNDS: usize = 4;
 /// Breaks on one curve at most; more would be a pile of slivers.
 const MOST_BREAKS: usize = 4_096;
+/// A naked end shorter than this part of its curve is the end of the gap beside it, not an edge of its own.
+const SHORT_END: f64 = 0.05;
 
 /// Curves that may share edges, in the order of their addresses.
 pub struct Cluster<'a> {
@@ -24,6 +26,8 @@ pub struct Cluster<'a> {
     pub overlaps: Vec<Overlap>,
     /// Sets of curves that are one edge as a whole.
     pub wholes: Vec<Vec<usize>>,
+    /// Ends of curves that stand out past the other side by no more than this belong to the gap.
+    pub reach: f64,
 }
 
 /// An elementary stretch.
@@ -200,7 +204,8 @@ impl Cluster<'_> {
         }
     }
 
-    /// Gives naked stretches that are shorter than the gap beside them to the neighbour they belong to.
+    /// Gives naked stretches that are shorter than the gap beside them to the neighbour they belong to, and
+    /// naked ends: a face slid along its edge leaves one at each end, as long as it was slid.
     fn absorb_slivers(&self, elements: &[Element], first: &[usize], sets: &mut Sets) {
         for c in 0..self.curves.len() {
             let range = first[c]..first[c + 1];
@@ -215,8 +220,11 @@ impl Cluster<'_> {
                     continue;
                 }
                 let neighbours = [e.checked_sub(1), Some(e + 1)].into_iter().flatten();
+                let is_end = e == range.start || e + 1 == range.end;
+                let short_end = is_end && length <= self.reach.min(SHORT_END * curve.length());
                 let taker = neighbours.filter(|n| range.contains(n)).find(|n| {
-                    !sets.is_alone(*n) && length <= 2.0 * self.snap_beside(c, middle(&elements[*n]))
+                    let short = short_end || length <= 2.0 * self.snap_beside(c, middle(&elements[*n]));
+                    short && !sets.is_alone(*n)
                 });
                 if let Some(taker) = taker {
                     sets.unite(e, taker);

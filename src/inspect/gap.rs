@@ -36,8 +36,9 @@ pub struct GapEnd {
 pub struct Gap {
     /// Largest distance (model units).
     pub maximum: f64,
-    /// The largest distance is less than `maximum + error_bound`, as [`super::measure`] bounds it: what cubics
-    /// miss at the middles of intervals, with a margin of four, and rounding.
+    /// The largest distance is expected to be less than `maximum + error_bound`: what cubics miss at the middles
+    /// of intervals, with a margin of four, and rounding ([`super::measure`]). An estimate that tests hold
+    /// against dense sampling, not a proof: a spike narrower than an interval could hide from it.
     pub error_bound: f64,
     /// Mean distance along the edge.
     pub mean: f64,
@@ -50,6 +51,8 @@ pub struct Gap {
     pub across: f64,
     /// Distance there along the normal.
     pub step: f64,
+    /// Distance there along the edge: not zero only where one side ends before the other.
+    pub along: f64,
     /// Largest angle between the tangent planes of the two sides (radians, 0 where one goes on smoothly in the other).
     pub angle: f64,
 }

@@ -337,7 +337,8 @@ impl Inspection {
                 wholes.push(members);
             }
         }
-        let mut edges = Cluster { curves, overlaps: found, wholes }.edges();
+        let cluster = Cluster { curves, overlaps: found, wholes, reach: self.scale.reach };
+        let mut edges = cluster.edges();
         for edge in &mut edges {
             self.measure(edge);
         }

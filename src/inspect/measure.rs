@@ -1,9 +1,10 @@
-//! How far two stretches of exact curves are apart: the largest and mean distance, with a bound on the error.
+//! How far two stretches of exact curves are apart: the largest and mean distance, with an estimate of the error.
 //!
 //! The squared distance `F(t)` of `a(t)` to the other curve is smooth, and its derivative is known without
-//! differences: `F' = 2 (a - foot) . a'`. Intervals are bisected until the cubic through both ends (values and
-//! slopes) foretells the middle; what it misses there, times `1/16` for the halves and a margin of 4, bounds
-//! the error of the halves' cubics. Intervals whose bound does not exceed the largest value found are left.
+//! differences: `F' = 2 (a - foot) . a'`. Intervals are bisected, at least twice, until the cubic through both ends (values and
+//! slopes) foretells the middle; what it misses there, times `1/16` for the halves and a margin of 4, stands for
+//! the error of the halves' cubics (it falls with the fourth power of the length). Intervals that cannot exceed
+//! the largest value found by that are left. Every distance told is one that was measured between two points.
 
 use super::gap::{Gap, GapEnd, GapSense};
 use super::lifted::{CurvePoint, LiftedCurve};
@@ -11,10 +12,22 @@ use super::nearest::{nearest, nearest_from};
 
 /// Relative accuracy of squared distances.
 const ACCURACY: f64 = 1e-3;
+/// Intervals are halved this often before a cubic is believed: rounded control points, of which real files are
+/// full, make gaps of several humps to a polynomial piece, and one between two points is seen by neither.
+const LEAST_DEPTH: u32 = 2;
+/// Nodes of a curve's table for each interval to begin with.
+const NODES: usize = 4;
+/// Intervals to begin with at most, besides polynomial pieces.
+const MOST_STOPS: usize = 32;
 /// Points measured in one sweep at most.
 const BUDGET: usize = 600;
 /// Apart mainly along the normal: what is across is less than this part of the distance.
 const STEP_RATIO: f64 = 0.3;
+
+/// A foot is off by no more than this part of the distance; the distance is then right to its square.
+const SLIP: f64 = 1e-3;
+/// Ends of a closed curve are no further apart than this part of its length.
+const CLOSED: f64 = 1e-6;
 
 /// A stretch of a curve.
 #[derive(Debug, Clone, Copy)]
@@ -23,6 +36,14 @@ pub struct Stretch<'a> {
     pub curve: &'a LiftedCurve,
     /// First and last parameter, rising.
     pub range: (f64, f64),
+}
+
+impl Stretch<'_> {
+    /// Whether it is the whole of a curve that ends where it begins.
+    fn is_closed(&self) -> bool {
+        let [start, end] = self.curve.ends();
+        self.range == self.curve.domain() && (end - start).length() <= CLOSED * self.curve.length()
+    }
 }
 
 /// A measured point.
@@ -61,7 +82,7 @@ pub fn gap(a: Stretch<'_>, b: Stretch<'_>, forward: bool, sides: [usize; 2]) -> 
     if !there_is_best {
         std::mem::swap(&mut first, &mut second);
     }
-    let (sense, across, step) = sense(a.curve, &first, b.curve, &second, there.noise);
+    let Parts { sense, across, step, along } = parts(a.curve, &first, b.curve, &second, there.noise);
     let end = |side: usize, p: &CurvePoint| GapEnd { side, t: p.t, uv: p.uv, point: p.point };
     Gap {
         maximum: best.distance,
@@ -71,6 +92,7 @@ pub fn gap(a: Stretch<'_>, b: Stretch<'_>, forward: bool, sides: [usize; 2]) -> 
         sense,
         across,
         step,
+        along,
         angle: angle(a, b),
     }
 }
@@ -90,7 +112,9 @@ impl<'a> Sweep<'a> {
         let mut sweep = Self { a, b, noise, best, bound: 0.0, integral: 0.0, probes: 2 };
         let floor = known.unwrap_or(0.0);
         let mut stops: Vec<f64> = a.curve.breaks().filter(|t| *t > start && *t < end).collect();
-        let least = if known.is_some() { 2 } else { 4 };
+        // Curves that need a finer table have gaps that swing more often.
+        let swings = a.curve.nodes().len() / NODES;
+        let least = if known.is_some() { 2 } else { swings.clamp(4, MOST_STOPS) };
         stops.extend((1..least).map(|k| start + (end - start) * k as f64 / least as f64));
         stops.sort_by(f64::total_cmp);
         stops.dedup_by(|x, y| *x - *y <= 1e-9 * (end - start));
@@ -100,6 +124,7 @@ impl<'a> Sweep<'a> {
             probes.push(sweep.probe(t, guess));
         }
         probes.push(last);
+        let least_depth = if known.is_some() { 1 } else { LEAST_DEPTH };
         let mut stack: Vec<(Probe, Probe, u32)> = probes.windows(2).rev().map(|w| (w[0], w[1], 0)).collect();
         while let Some((p, q, depth)) = stack.pop() {
             let (t0, t1) = (p.from.t, q.from.t);
@@ -114,7 +139,8 @@ impl<'a> Sweep<'a> {
             let lost = [&p, &m, &q].iter().all(|x| x.distance <= sweep.noise);
             let top = if lost { 0.0 } else { halves[0].1.max(halves[1].1) + 0.25 * miss };
             let most = sweep.best.distance.max(floor).max(sweep.noise);
-            let settled = lost || miss <= ACCURACY * most * most || top <= most * most;
+            let foretold_well = miss <= ACCURACY * most * most || top <= most * most;
+            let settled = lost || (depth >= least_depth && foretold_well);
             let tired = depth >= 24 || sweep.probes >= BUDGET;
             if settled || tired {
                 let half = if halves[0].1 >= halves[1].1 { (p, m, halves[0]) } else { (m, q, halves[1]) };
@@ -142,7 +168,7 @@ impl<'a> Sweep<'a> {
     fn probe(&mut self, t: f64, (guess, usual): (f64, f64)) -> Probe {
         self.probes += 1;
         let mut found = probe(self.a.curve, t, self.b, Some(guess));
-        if found.distance > 2.0 * usual + self.noise {
+        if found.distance > 2.0 * usual + self.noise || !self.rests(&found) {
             let other = probe(self.a.curve, t, self.b, None);
             if other.distance < found.distance {
                 found = other;
@@ -152,6 +178,16 @@ impl<'a> Sweep<'a> {
             self.best = found;
         }
         found
+    }
+
+    /// Whether the search for a foot came to rest: at an end, or where the way there is perpendicular to the curve. A
+    /// guess on the wrong side of a closed curve leads nowhere in the steps that it has.
+    fn rests(&self, found: &Probe) -> bool {
+        let foot = &found.to;
+        let slip = (foot.point - found.from.point).dot(foot.tangent).abs();
+        foot.t == self.b.range.0
+            || foot.t == self.b.range.1
+            || slip <= (SLIP * found.distance + self.noise) * foot.tangent.length()
     }
 
     /// Looks for the top between two probes, where the slope changes its sign.
@@ -174,10 +210,18 @@ impl<'a> Sweep<'a> {
 
 fn probe(a: &LiftedCurve, t: f64, b: Stretch<'_>, guess: Option<f64>) -> Probe {
     let from = a.at(t);
-    let found = match guess {
+    let mut found = match guess {
         Some(guess) => nearest_from(b.curve, from.point, b.range, guess),
         None => nearest(b.curve, from.point, b.range),
     };
+    // A closed curve goes on where it ends.
+    let (first, last) = b.range;
+    if (found.at.t == first || found.at.t == last) && b.is_closed() {
+        let other = nearest_from(b.curve, from.point, b.range, first + last - found.at.t);
+        if other.distance < found.distance {
+            found = other;
+        }
+    }
     let slope = (from.point - found.at.point).dot(from.tangent);
     Probe { from, to: found.at, distance: found.distance, slope }
 }
@@ -203,19 +247,23 @@ fn cubic_top(p: &Probe, q: &Probe) -> (f64, f64) {
     best
 }
 
-/// How two points of two sides lie to each other: sense, distance across (overlaps positive), distance along
-/// the normal.
-fn sense(
-    a: &LiftedCurve,
-    p: &CurvePoint,
-    b: &LiftedCurve,
-    q: &CurvePoint,
-    noise: f64,
-) -> (GapSense, f64, f64) {
+/// The way from one side to the other, taken apart.
+struct Parts {
+    sense: GapSense,
+    /// Across the edge, overlaps positive.
+    across: f64,
+    /// Along the normal.
+    step: f64,
+    /// Along the edge: where one side ends before the other.
+    along: f64,
+}
+
+/// How two points of two sides lie to each other.
+fn parts(a: &LiftedCurve, p: &CurvePoint, b: &LiftedCurve, q: &CurvePoint, noise: f64) -> Parts {
     let apart = q.point - p.point;
     let distance = apart.length();
     if distance <= noise {
-        return (GapSense::Closed, 0.0, 0.0);
+        return Parts { sense: GapSense::Closed, across: 0.0, step: 0.0, along: 0.0 };
     }
     let axis = match (a.inward(p.t), b.inward(q.t)) {
         // From the middle of a's face to the middle of b's is against this.
@@ -224,17 +272,23 @@ fn sense(
         (None, Some(y)) => Some(-y),
         (None, None) => None,
     };
-    let Some(axis) = axis else { return (GapSense::Opening, -distance, 0.0) };
+    let Some(axis) = axis else {
+        return Parts { sense: GapSense::Opening, across: -distance, step: 0.0, along: 0.0 };
+    };
     let across = apart.dot(axis);
-    let step = (apart - axis * across).length();
-    let sense = if across.abs() < STEP_RATIO * distance {
+    let rest = apart - axis * across;
+    // A foot inside the stretches is perpendicular to them; beside an end it need not be.
+    let tangent = (p.tangent - axis * axis.dot(p.tangent)).try_normalize();
+    let along = tangent.map_or(0.0, |t| rest.dot(t).abs());
+    let step = (rest.length_squared() - along * along).max(0.0).sqrt();
+    let sense = if step >= STEP_RATIO.hypot(1.0).recip() * distance {
         GapSense::Step
-    } else if across > 0.0 {
+    } else if across > STEP_RATIO * distance {
         GapSense::Overlap
     } else {
         GapSense::Opening
     };
-    (sense, across, step)
+    Parts { sense, across, step, along }
 }
 
 /// Largest angle between the tangent planes at a few points along.

@@ -137,7 +137,7 @@ pub struct Side {
 pub struct GapFigures {
     /// Largest distance.
     pub maximum_mm: f64,
-    /// It is no larger than `maximum_mm` and this.
+    /// It is expected to be no larger than `maximum_mm` and this; an estimate.
     pub error_bound_mm: f64,
     /// Mean distance along the edge.
     pub mean_mm: f64,
@@ -147,6 +147,8 @@ pub struct GapFigures {
     pub across_mm: f64,
     /// Distance along the normal there.
     pub step_mm: f64,
+    /// Distance along the edge there: not zero only where one side ends before the other.
+    pub along_mm: f64,
     /// Largest angle between the tangent planes.
     pub angle_degrees: f64,
     /// The two points where it is largest.
@@ -280,6 +282,7 @@ fn figures(gap: &super::gap::Gap, mm: f64) -> GapFigures {
         sense: gap.sense,
         across_mm: gap.across * mm,
         step_mm: gap.step * mm,
+        along_mm: gap.along * mm,
         angle_degrees: gap.angle.to_degrees(),
         between: [place(&gap.between[0]), place(&gap.between[1])],
     }

@@ -10,6 +10,7 @@ mod export;
 mod fixtures;
 mod iges_truth;
 mod import;
+mod json_schema;
 mod mutations;
 mod points;
 mod saving;

@@ -1,8 +1,11 @@
 //! Gaps put in on purpose, of which the size is known in closed form, are found to one percent.
 
+use std::f64::consts::TAU;
+
 use glam::{DVec2, DVec3};
 use hairline::inspect::{EdgeKind, Gap, GapSense, Inspection};
 use hairline::kernel::nurbs::{KnotVector, NurbsCurve2};
+use hairline::kernel::primitives::{arc, extrusion};
 use hairline::scene::records::FaceRecord;
 
 use super::pairs::*;
@@ -62,6 +65,55 @@ fn a_step_between_radii() {
         let found = gap(&[lower, upper], &what);
         assert_gap(&found, size, &what);
         assert_eq!(found.sense, GapSense::Step, "{found:?}");
+    }
+}
+
+#[test]
+fn a_face_slid_along_its_edge_stands_out_at_both_ends() {
+    for size in SIZES {
+        let lower = face(plane(50.0, 0.0), vec![rectangle([0.0, 0.0], [1.0, 0.5])]);
+        let upper = face(plane(50.0, 0.0), vec![rectangle([0.0, 0.5], [1.0, 1.0])]);
+        let what = format!("slid by {size}");
+        let faces = [lower, moved(&upper, DVec3::X * size)];
+        let found = gap(&faces, &what);
+        assert!((found.maximum - size).abs() <= 1e-9 * size + 1e-13, "{what}: {found:?}");
+        assert_eq!(found.sense, GapSense::Opening, "{what}");
+        assert!(
+            (found.along - size).abs() <= 1e-6 * size + 1e-13 && found.step <= 1e-12,
+            "{what}: {found:?}"
+        );
+        assert_eq!(of_kind(&Inspection::of(&faces), EdgeKind::Naked).len(), 6, "{what}");
+    }
+    // Slid much further it is a partial overlap: what is beside nothing is naked.
+    let lower = face(plane(50.0, 0.0), vec![rectangle([0.0, 0.0], [1.0, 0.5])]);
+    let upper = face(plane(50.0, 0.0), vec![rectangle([0.0, 0.5], [1.0, 1.0])]);
+    let faces = [lower, moved(&upper, DVec3::X * 15.0)];
+    assert!(gap(&faces, "far").maximum <= 1e-12);
+    assert_eq!(of_kind(&Inspection::of(&faces), EdgeKind::Naked).len(), 8);
+}
+
+#[test]
+fn lids_moved_off_a_tube_have_the_length_of_the_move() {
+    // Closed curves with seams in other places: somewhere the way is perpendicular to the circle.
+    let circle = |height: f64| arc(DVec3::Z * height, DVec3::X * 20.0, DVec3::Y * 20.0, 0.0, TAU);
+    let tube = extrusion(&circle(0.0).expect("valid test data"), DVec3::Z * 15.0).expect("valid test data");
+    for size in SIZES {
+        for turn in [0.0, 1e-4, 0.02, 1.0] {
+            let axis = DVec2::from_angle(turn);
+            let (x, y) = (axis.extend(0.0) * 0.4, axis.perp().extend(0.0) * 0.4);
+            let rim = arc(DVec3::new(0.5, 0.5, 0.0), x, y, 0.0, TAU).expect("valid test data");
+            let mut lid = face(plane(50.0, 15.0), vec![vec![rim.map_points(DVec3::truncate)]]);
+            let by = DVec3::new(-0.48, 0.6, 0.64) * size;
+            lid.surface = lid.surface.map_points(|p| p - DVec3::new(25.0, 25.0, 0.0) + by);
+            let what = format!("lid {size} turned by {turn}");
+            let inspection = Inspection::of(&[face(tube.clone(), vec![]), lid]);
+            assert_complete(&inspection);
+            let shared = of_kind(&inspection, EdgeKind::Shared);
+            let gaps = shared.iter().map(|e| e.gap.expect("shared edges have gaps"));
+            let worst = gaps.max_by(|a, b| a.maximum.total_cmp(&b.maximum)).expect("the rim is shared");
+            assert!((worst.maximum - size).abs() <= 0.01 * size, "{what}: {worst:?}");
+            assert_eq!(of_kind(&inspection, EdgeKind::Naked).len(), 1, "{what}: the other rim");
+        }
     }
 }
 
@@ -139,6 +191,43 @@ fn a_narrow_bump_on_a_free_form_surface_is_found() {
             "{what}: {:e}, expected {known:e}",
             found.maximum
         );
+    }
+}
+
+#[test]
+fn gaps_of_many_humps_are_measured_at_the_highest() {
+    // Control points off at random, as rounding leaves them: against a dense search over both curves.
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    for seed in 0..12 {
+        let surface = hills(seed);
+        let [left, mut right] = divided(&surface, 0);
+        let base = &right.loops[0].curves[3];
+        let count = 1 + 2 * seed;
+        let inner: Vec<f64> = (1..=count).map(|k| f64::from(k) / f64::from(count + 1)).collect();
+        let fine = base.inserted(&inner).expect("valid test data");
+        let size = 10f64.powi(-2 - (seed as i32) % 4);
+        let mut points = fine.points().to_vec();
+        let last = points.len() - 1;
+        points[1..last].iter_mut().for_each(|p| p.x += size / 40.0 * random());
+        let pushed =
+            NurbsCurve2::new(fine.knots().clone(), points, fine.weights().to_vec()).expect("valid test data");
+        let known = (0..=20_000).map(|k| f64::from(k) / 20_000.0).map(|t| {
+            let (d, e) = (fine.derivatives(t, 1), pushed.point(t));
+            let jet = surface.jet(d[0].x, d[0].y);
+            let along = (jet.du * d[1].x + jet.dv * d[1].y).normalize();
+            let apart = surface.point(e.x, e.y) - jet.point;
+            (apart - along * apart.dot(along)).length()
+        });
+        let known = known.fold(0.0, f64::max);
+        right.loops[0].curves[3] = pushed;
+        let found = gap(&[left, right], "humps");
+        let off = (found.maximum / known - 1.0).abs();
+        assert!(off <= 0.01, "seed {seed}: {:e}, expected {known:e}", found.maximum);
+        assert!(found.maximum + found.error_bound >= known * (1.0 - 1e-4), "seed {seed}: {found:?}");
     }
 }
 
