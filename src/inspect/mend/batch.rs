@@ -28,7 +28,8 @@ pub struct BatchReport {
 /// An edit does not fit the scene; that would be an error of this program.
 pub fn close_all(scene: &mut SceneRecord, model: usize, tolerance: f64) -> Result<BatchReport, EditError> {
     let Some(record) = scene.models.get(model) else { return Ok(BatchReport::default()) };
-    let mut inspection = Inspection::in_unit(&record.faces, record.unit.millimetres);
+    let millimetres = record.unit.millimetres;
+    let mut inspection = Inspection::in_unit(&record.faces, millimetres);
     let mut report = BatchReport::default();
     for _ in 0..ROUNDS {
         let before = report.closed.len();
@@ -46,7 +47,7 @@ pub fn close_all(scene: &mut SceneRecord, model: usize, tolerance: f64) -> Resul
                 }
                 Ok(_) => report.open.push((key, gap, "closing it opens another edge of the face".into())),
                 Err(MendError::Closed { .. }) => {}
-                Err(error) => report.open.push((key, gap, error.to_string())),
+                Err(error) => report.open.push((key, gap, error.told(millimetres))),
             }
         }
         if report.closed.len() == before {

@@ -14,6 +14,7 @@ use super::edge::{Edge, EdgeUse};
 use super::face_curves::{lift, sides};
 use super::lifted::LiftedCurve;
 use super::measure::{Stretch, gap};
+use super::quantity::Length;
 use crate::kernel::nurbs::NurbsCurve2;
 use crate::scene::edit::{Change, Edit, FaceId};
 use crate::scene::records::{FaceRecord, LoopRecord, LoopRole};
@@ -95,8 +96,30 @@ pub enum MendError {
     },
 }
 
+impl MendError {
+    /// The message with lengths as people write them, for models in a unit that is `millimetres` long.
+    pub fn told(&self, millimetres: f64) -> String {
+        let length = |x: f64| Length { mm: x * millimetres };
+        match self {
+            Self::Tolerance { tolerance } => format!("the tolerance {} is not positive", length(*tolerance)),
+            Self::Closed { gap } => format!("the gap of {} is within the tolerance already", length(*gap)),
+            Self::SurfacesApart { left, gap } => {
+                let (left, gap) = (length(*left), length(*gap));
+                format!("the surfaces do not meet: moving trims leaves {left} of the gap of {gap}")
+            }
+            Self::NotReached { reached, gap } if reached < gap => {
+                format!("the best curve found leaves {} of the gap of {}", length(*reached), length(*gap))
+            }
+            Self::NotReached { gap, .. } => {
+                format!("moving the curve does not make the gap of {} smaller", length(*gap))
+            }
+            Self::Sides { .. } | Self::Stale { .. } | Self::Partial => self.to_string(),
+        }
+    }
+}
+
 /// Rounds of adding knots.
-const ROUNDS: u32 = 7;
+const ROUNDS: u32 = 9;
 
 /// Closes the gap of `edge` of `faces`.
 ///

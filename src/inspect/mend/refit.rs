@@ -8,7 +8,7 @@ use glam::DVec2;
 use crate::kernel::nurbs::{KnotVector, NurbsCurve2};
 
 /// Control points at most.
-const MOST_POINTS: usize = 240;
+const MOST_POINTS: usize = 520;
 
 /// The curve over the knots and weights of `curve` (clamped) closest to `goals`, of which the first and last are
 /// met exactly. `None` when the goals do not determine it.

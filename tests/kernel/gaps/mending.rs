@@ -50,7 +50,7 @@ fn mend(faces: &[FaceRecord], side: Option<usize>) -> f64 {
 
 #[test]
 fn a_bump_is_flattened_from_either_side() {
-    for size in [1e-3, 0.05] {
+    for size in [1e-3, 0.05, 0.5] {
         let surface = hills(4);
         let [left, mut right] = divided(&surface, 0);
         let curve = &right.loops[0].curves[3];
