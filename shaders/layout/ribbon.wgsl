@@ -10,11 +10,7 @@ struct RibbonPiece {
     first_curve: u32,     // first control point of the curve: x w, y w, w, 0
     face: u32,            // slot in the face table
     other: u32,           // slot of the face across the edge
-    edge: u32,            // slot in the table of edge looks
     gap: f32,             // largest distance from the curve across the edge, model units
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
 }
 
 // A stretch of a piece that is drawn as a strip. Mirror: encoding::ribbon::RibbonSpan.
@@ -23,13 +19,4 @@ struct RibbonSpan {
     start: f32,   // parameters on the piece, 0..1
     end: f32,
     pad0: u32,
-}
-
-// How an edge is drawn by itself. Mirror: encoding::ribbon::EdgeLook.
-struct EdgeLook {
-    colour: vec4f,    // linear RGB, opacity
-    width: f32,       // pixels; 0: not drawn
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
 }

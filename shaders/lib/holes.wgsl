@@ -49,11 +49,8 @@ fn hole_side(pixel: vec2i, step: vec2i, own: u32, z: f32) -> HoleSide {
     }
     let steps = f32(max(abs(step.x), abs(step.y)));
     let n = unpack_normal(there.w);
-    let ahead = hole_ray(pixel);
-    let p = ray_point(hole_ray(at), z_there);
-    let down = dot(n, vec3f(ahead.slope, 1.0));
     let limit = 30.0 * width * steps;
-    let plane = dot(n, p - vec3f(ahead.offset, 0.0)) / select(down, 1e-30, abs(down) < 1e-30);
+    let plane = plane_depth(n, ray_point(hole_ray(at), z_there), hole_ray(pixel));
     let plane_z = clamp(plane, z_there - limit, z_there + limit);
     if (own != 0u && z - plane_z <= least) {
         return none;
@@ -88,21 +85,62 @@ fn is_hole(pixel: vec2i, own: u32, z: f32, a: u32, b: u32) -> bool {
     return false;
 }
 
-// The same for slits that are wider, across `direction` (unit, pixels) and up to `most` pixels away.
-fn is_wide_hole(pixel: vec2i, own: u32, z: f32, a: u32, b: u32, direction: vec2f, most: i32) -> bool {
-    var first = HoleSide(false, 0u, 0.0, 0.0, 0.0);
-    var second = first;
-    for (var k = 1; k <= most; k++) {
-        if (!first.there) {
-            first = hole_side(pixel, vec2i(round(-f32(k) * direction)), own, z);
-        }
-        if (!second.there) {
-            second = hole_side(pixel, vec2i(round(f32(k) * direction)), own, z);
-        }
-        if (first.there && second.there) {
-            break;
+// Steps of a search grow slowly beyond this many pixels: the sides of a wide slit are wider than the steps.
+const HOLE_EXACT: i32 = 16;
+
+// The first nearer surface along `direction` (unit, pixels), up to `most` pixels away.
+fn hole_search(pixel: vec2i, own: u32, z: f32, direction: vec2f, most: i32) -> HoleSide {
+    for (var k = 1; k <= most; k += 1 + k / HOLE_EXACT) {
+        let side = hole_side(pixel, vec2i(round(f32(k) * direction)), own, z);
+        if (side.there) {
+            return side;
         }
     }
-    let of_edge = (first.face == a || first.face == b) && (second.face == a || second.face == b);
-    return first.there && second.there && of_edge && hole_one_depth(first, second);
+    return HoleSide(false, 0u, 0.0, 0.0, 0.0);
+}
+
+fn hole_is_of(side: HoleSide, a: u32, b: u32) -> bool {
+    return side.there && (side.face == a || side.face == b);
+}
+
+// The same for slits that are wider, across `direction` (unit, pixels) and up to `most` pixels away.
+fn is_wide_hole(pixel: vec2i, own: u32, z: f32, a: u32, b: u32, direction: vec2f, most: i32) -> bool {
+    let first = hole_search(pixel, own, z, -direction, most);
+    if (!hole_is_of(first, a, b)) {
+        return false;
+    }
+    let second = hole_search(pixel, own, z, direction, most);
+    return hole_is_of(second, a, b) && hole_one_depth(first, second);
+}
+
+fn in_picture(p: vec2f) -> bool {
+    return all(p >= vec2f(0.0)) && all(p < hole_view().size);
+}
+
+// Where a side of the slit lies outside of the picture or behind another face: whether the slit is one farther along,
+// where both can be seen.
+fn is_hole_along(pixel: vec2i, own: u32, z: f32, a: u32, b: u32, direction: vec2f, most: i32) -> bool {
+    let centre = vec2f(pixel) + 0.5;
+    let across = f32(most) * direction;
+    if (in_picture(centre + across) && in_picture(centre - across)) {
+        let first = hole_search(pixel, own, z, -direction, most);
+        let second = hole_search(pixel, own, z, direction, most);
+        let hidden = first.there && second.there && hole_is_of(first, a, b) != hole_is_of(second, a, b);
+        if (!hidden) {
+            return false;
+        }
+    }
+    let along = vec2f(-direction.y, direction.x);
+    for (var k = 1; k <= 2 * most; k *= 2) {
+        for (var sign = -1; sign <= 1; sign += 2) {
+            let at = pixel + vec2i(round(f32(sign * k) * along));
+            if (!in_picture(vec2f(at))) {
+                continue;
+            }
+            if (is_wide_hole(at, raw_words(at).x, raw_z(at), a, b, direction, most)) {
+                return true;
+            }
+        }
+    }
+    return false;
 }

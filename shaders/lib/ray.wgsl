@@ -10,6 +10,12 @@ fn ray_point(ray: Ray, z: f32) -> vec3f {
     return vec3f(ray.offset + ray.slope * z, z);
 }
 
+// Depth at which a ray meets the plane through `p` with normal `n`.
+fn plane_depth(n: vec3f, p: vec3f, ray: Ray) -> f32 {
+    let down = dot(n, vec3f(ray.slope, 1.0));
+    return dot(n, p - vec3f(ray.offset, 0.0)) / select(down, 1e-30, abs(down) < 1e-30);
+}
+
 // A box in view axes.
 struct ViewBox {
     centre: vec3f,

@@ -1,33 +1,16 @@
 // Casts one ray per pixel at the cells whose boxes cover it.
 // Writes (face slot + 1, u, v, normal or counts) and reverse-z depth.
 
-@group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(1) var<storage, read> order: array<u32>;
-@group(0) @binding(2) var<storage, read> cells: array<Cell>;
-@group(0) @binding(3) var<storage, read> points: array<vec4f>;
-@group(0) @binding(4) var<storage, read> faces: array<FaceHeader>;
-
-@group(0) @binding(5) var<storage, read> trim_cells: array<u32>;
-@group(0) @binding(6) var<storage, read> trim_entries: array<u32>;
-@group(0) @binding(7) var<storage, read> trim_data: array<vec4f>;
+// The view, faces and trims are bound in `trims`.
+@group(0) @binding(5) var<storage, read> order: array<u32>;
+@group(0) @binding(6) var<storage, read> cells: array<Cell>;
+@group(0) @binding(7) var<storage, read> points: array<vec4f>;
 
 // Of each pixel the nearest depth hit so far in this pass, bits of f32; 0: none.
 @group(0) @binding(8) var<storage, read_write> nearest: array<atomic<u32>>;
 
 fn load_point(index: u32) -> vec4f {
     return points[index];
-}
-
-fn load_trim_cell(index: u32) -> u32 {
-    return trim_cells[index];
-}
-
-fn load_trim_entry(index: u32) -> u32 {
-    return trim_entries[index];
-}
-
-fn load_trim_data(index: u32) -> vec4f {
-    return trim_data[index];
 }
 
 // Stands in `order` where there is no cell. Mirror: encoding::order::NO_CELL.
@@ -149,7 +132,7 @@ fn fragment(in: Proxy) -> Visibility {
     var found = false;
     var evaluations = 0u;
     var curve_evaluations = 0u;
-    var kept = true;
+    var inside = true;
     let trim = (view.flags & CAST_TRIM) != 0u;
     let heat = (view.flags & CAST_HEAT) != 0u;
     var depth = 0.0;
@@ -171,20 +154,11 @@ fn fragment(in: Proxy) -> Visibility {
             uv = clamp(mix(in.uv.xy, in.uv.zw, 0.5 + 0.5 * root.x), vec2f(0.0), vec2f(BELOW_ONE));
             normal = root.normal;
             if (trim && (in.ids.w & 1u) != 0u) {
-                let grid = grid_header(in);
-                let verdict = classify(grid, uv.x, uv.y);
-                kept = verdict.inside;
+                let verdict = kept(grid_header(in), uv);
+                inside = verdict.inside;
                 curve_evaluations += verdict.evaluations;
-                // As a loop: see seeds.
-                for (var k = 0u; k < 4u; k++) {
-                    if (kept || !verdict.listed) {
-                        break;
-                    }
-                    let beside = uv + nudge(k);
-                    kept = classify(grid, beside.x, beside.y).inside;
-                }
             }
-            found = kept || heat;
+            found = inside || heat;
             if (found) {
                 break;
             }
@@ -194,7 +168,7 @@ fn fragment(in: Proxy) -> Visibility {
         discard;
     }
     var out: Visibility;
-    let word = select(pack_normal(normal), pack_heat(normal, curve_evaluations, kept, evaluations), heat);
+    let word = select(pack_normal(normal), pack_heat(normal, curve_evaluations, inside, evaluations), heat);
     out.words = vec4u(in.ids.x + 1u, bitcast<u32>(uv.x), bitcast<u32>(uv.y), word);
     out.depth = depth;
     atomicMax(&nearest[place], bitcast<u32>(depth));

@@ -1,17 +1,6 @@
 // Straight lines of constant width in pixels, smoothed at their borders: grid, axes and handles of the viewport.
 // One instance per line, six vertices each. Positions are relative to the eye.
 
-struct View {
-  clip_from_relative: mat4x4f,
-  // Centre of the disc outside of which lines fade away, relative to the eye; w: its radius.
-  fade: vec4f,
-  // Size of the viewport, pixels.
-  size_px: vec2f,
-  // Factor of the (reversed) depth: below 1 is farther than it is.
-  depth: f32,
-  opacity: f32,
-}
-
 struct Line {
   @location(0) start: vec3f,
   @location(1) end: vec3f,
@@ -27,8 +16,6 @@ struct Corner {
   @location(1) @interpolate(linear) across: vec2f,
   @location(2) relative: vec3f,
 }
-
-@group(0) @binding(0) var<uniform> view: View;
 
 // Nearest w of a line that is drawn: what is behind the eye is cut off.
 const NEAR_W = 1e-6;

@@ -1,17 +1,6 @@
 // Marks of constant size in pixels, smoothed at their borders: control points in the viewport.
 // One instance per mark, six vertices each. Positions are relative to the eye.
 
-struct View {
-  clip_from_relative: mat4x4f,
-  // As for lines; marks do not fade.
-  fade: vec4f,
-  // Size of the viewport, pixels.
-  size_px: vec2f,
-  // Depth is multiplied by it: above 1 is nearer.
-  depth_scale: f32,
-  opacity: f32,
-}
-
 struct Mark {
   @location(0) at: vec3f,
   // sRGB encoded, not premultiplied.
@@ -32,8 +21,6 @@ struct Corner {
   @location(3) shape: vec2f,
 }
 
-@group(0) @binding(0) var<uniform> view: View;
-
 // Width of the border, pixels.
 const BORDER = 1.4;
 
@@ -46,7 +33,7 @@ fn vertex(mark: Mark, @builtin(vertex_index) index: u32) -> Corner {
   let reach = 0.5 * mark.size_px + 1.0;
   let offset = vec2f(select(-reach, reach, right), select(-reach, reach, up));
   let moved = centre.xy + offset / (0.5 * view.size_px) * centre.w;
-  out.clip = vec4f(moved, centre.z * view.depth_scale, centre.w);
+  out.clip = vec4f(moved, centre.z * view.depth, centre.w);
   if (centre.w <= 0.0) {
     out.clip = vec4f(2.0, 2.0, 2.0, 1.0);
   }

@@ -1,25 +1,9 @@
 // Triangles of the untrimmed surfaces with exact trims per pixel (Schollmeyer & Froehlich 2009, figure 10).
 // Writes the same visibility buffer as the rays: (face slot + 1, u, v, normal or counts) and depth.
 
-@group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(1) var<storage, read> vertices: array<MeshVertex>;
-@group(0) @binding(2) var<storage, read> origins: array<MeshOrigin>;
-@group(0) @binding(3) var<storage, read> faces: array<FaceHeader>;
-@group(0) @binding(4) var<storage, read> trim_cells: array<u32>;
-@group(0) @binding(5) var<storage, read> trim_entries: array<u32>;
-@group(0) @binding(6) var<storage, read> trim_data: array<vec4f>;
-
-fn load_trim_cell(index: u32) -> u32 {
-    return trim_cells[index];
-}
-
-fn load_trim_entry(index: u32) -> u32 {
-    return trim_entries[index];
-}
-
-fn load_trim_data(index: u32) -> vec4f {
-    return trim_data[index];
-}
+// The view, faces and trims are bound in `trims`.
+@group(0) @binding(5) var<storage, read> vertices: array<MeshVertex>;
+@group(0) @binding(6) var<storage, read> origins: array<MeshOrigin>;
 
 struct Corner {
     @builtin(position) position: vec4f,
@@ -55,7 +39,7 @@ fn fragment(in: Corner) -> @location(0) vec4u {
     let heat = (view.flags & CAST_HEAT) != 0u;
     var verdict = Verdict(true, 0u, false);
     if (trim && in.ids.y != 0u) {
-        verdict = classify(faces[in.ids.x].grid, uv.x, uv.y);
+        verdict = kept(faces[in.ids.x].grid, uv);
     }
     if (!verdict.inside && !heat) {
         discard;

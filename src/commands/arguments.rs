@@ -181,8 +181,8 @@ pub struct RenderArguments {
     /// How surfaces are drawn: rays at the exact surfaces, or triangles wrong by at most half a pixel.
     #[arg(long, value_enum, default_value_t = Surfaces::Cast)]
     pub renderer: Surfaces,
-    /// Pin holes between faces that share an edge: left as they are, filled by fat lines along the edges (wide holes
-    /// only in part yet), or shown by what fat lines would fill.
+    /// Pin holes between faces that share an edge: left as they are, filled by fat lines along the edges,
+    /// or shown by what fat lines would fill.
     #[arg(long, value_enum, default_value_t = Holes::Raw)]
     pub conceal: Holes,
 }
@@ -414,7 +414,7 @@ pub enum Mode {
 pub enum Holes {
     /// The picture is what the model is.
     Raw,
-    /// Fat lines fill them, wide ones in part.
+    /// Fat lines fill them.
     Concealed,
     /// What fat lines fill, in red on grey.
     Difference,

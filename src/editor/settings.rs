@@ -31,9 +31,9 @@ pub enum DisplayMode {
 #[serde(rename_all = "lowercase")]
 pub enum Surfaces {
     /// Rays; triangles while the view moves and rays would have to be coarse.
+    #[default]
     Auto,
     /// Rays at the exact surfaces only.
-    #[default]
     Rays,
     /// Triangles only, trimmed exactly.
     Triangles,
@@ -68,6 +68,22 @@ pub enum Handles {
     Surface,
 }
 
+/// How pin holes are marked.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum HoleMarks {
+    /// Rings around them.
+    #[default]
+    Rings,
+    /// Rings that blink.
+    Blinking,
+    /// Squares over them, larger than they are.
+    Dilated,
+}
+
+/// How much the magnifier enlarges, one after the other.
+pub const LENS_ZOOMS: [u32; 3] = [8, 16, 4];
+
 /// The user's choices.
 #[derive(Resource, Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -80,6 +96,16 @@ pub struct Settings {
     pub holes: Conceal,
     /// Whether pin holes are marked while edges are inspected.
     pub pin_holes: bool,
+    /// How they are marked.
+    pub hole_marks: HoleMarks,
+    /// Whether they are looked for while the view moves too, which takes rays. Not kept.
+    #[serde(skip)]
+    pub holes_moving: bool,
+    /// Whether a magnifier follows the pointer. Not kept.
+    #[serde(skip)]
+    pub lens: bool,
+    /// How much it enlarges.
+    pub lens_zoom: u32,
     /// How surfaces become pixels.
     pub surfaces: Surfaces,
     /// Whether edges are drawn.
@@ -122,7 +148,11 @@ impl Default for Settings {
             mode: DisplayMode::Shaded,
             holes: Conceal::Raw,
             pin_holes: true,
-            surfaces: Surfaces::Rays,
+            hole_marks: HoleMarks::Rings,
+            holes_moving: false,
+            lens: false,
+            lens_zoom: LENS_ZOOMS[0],
+            surfaces: Surfaces::Auto,
             edges: true,
             grid: true,
             light: false,
@@ -173,6 +203,18 @@ fn switch(mut requests: MessageReader<CommandRequest>, mut settings: ResMut<Sett
                 settings.autosave_s = *seconds;
                 continue;
             }
+            Action::HoleMarks(marks) => {
+                settings.hole_marks = *marks;
+                settings.pin_holes = true;
+                continue;
+            }
+            Action::LensZoom => {
+                let at = LENS_ZOOMS.iter().position(|zoom| *zoom == settings.lens_zoom);
+                settings.lens_zoom = LENS_ZOOMS[at.map_or(0, |k| (k + 1) % LENS_ZOOMS.len())];
+                continue;
+            }
+            Action::ToggleLens => &mut settings.lens,
+            Action::ToggleMovingHoles => &mut settings.holes_moving,
             Action::ToggleEdges => &mut settings.edges,
             Action::ToggleGrid => &mut settings.grid,
             Action::ToggleTheme => &mut settings.light,

@@ -22,6 +22,6 @@ pub use level::LevelView;
 pub use look::Look;
 pub use mesh::{MeshOrigin, MeshScene, MeshVertex};
 pub use options::{Conceal, DisplayMode, EdgeStyle, Image, RenderOptions, Theme};
-pub use ribbon::{EdgeLook, RibbonPiece, RibbonScene, RibbonShape, RibbonSpan};
+pub use ribbon::{RibbonPiece, RibbonScene, RibbonShape, RibbonSpan};
 pub use scene::{FaceShape, FaceSlot, PackedScene};
 pub use view::{DepthRange, View};

@@ -31,11 +31,7 @@ pub struct RibbonPiece {
     pub first_curve: u32,
     pub face: u32,
     pub other: u32,
-    pub edge: u32,
     pub gap: f32,
-    pub pad0: u32,
-    pub pad1: u32,
-    pub pad2: u32,
 }
 
 /// Mirror of `RibbonSpan` in `shaders/layout/ribbon.wgsl`.
@@ -49,25 +45,6 @@ pub struct RibbonSpan {
     pub pad0: u32,
 }
 
-/// Mirror of `EdgeLook` in `shaders/layout/ribbon.wgsl`.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-#[expect(missing_docs, reason = "described in the shader's layout")]
-pub struct EdgeLook {
-    pub colour: [f32; 4],
-    pub width: f32,
-    pub pad0: u32,
-    pub pad1: u32,
-    pub pad2: u32,
-}
-
-impl EdgeLook {
-    /// A line of linear RGB and opacity, `width` pixels wide.
-    pub fn new(colour: [f32; 4], width: f32) -> Self {
-        Self { colour, width, pad0: 0, pad1: 0, pad2: 0 }
-    }
-}
-
 /// Straight segments of a span. Mirror of `RIBBON_SEGMENTS`.
 pub const SEGMENTS: u32 = 8;
 
@@ -78,14 +55,12 @@ pub struct RibbonShape<'a> {
     pub face: &'a Face,
     /// Its slot.
     pub slot: FaceSlot,
-    /// Slot of the face across the edge; the same face at seams and where there is none.
+    /// Slot of the face across the edge; the same face at seams.
     pub other: FaceSlot,
     /// The stretch in native parameters.
     pub curve: BezierCurve2,
     /// How far the other side of the edge is away at most, model units.
     pub gap: f64,
-    /// Number of the edge, for its look.
-    pub edge: u32,
 }
 
 /// What spans are found from.
@@ -98,9 +73,6 @@ struct Extent {
     /// Largest distance of the piece from its chord.
     bend: f64,
     gap: f64,
-    /// Whether it lies between two faces, or a face and itself.
-    paired: bool,
-    edge: u32,
 }
 
 /// All ribbons of a scene.
@@ -113,12 +85,12 @@ pub struct RibbonScene {
 }
 
 impl RibbonScene {
-    /// Packs stretches with whether they are to be concealed (they lie between two sides), or only drawn.
-    pub fn new<'a>(shapes: impl IntoIterator<Item = (RibbonShape<'a>, bool)>) -> Self {
+    /// Packs stretches of edges that have two sides.
+    pub fn new<'a>(shapes: impl IntoIterator<Item = RibbonShape<'a>>) -> Self {
         let (mut pieces, mut points, mut curves, mut extents) = (vec![], vec![], vec![], vec![]);
-        for (shape, paired) in shapes {
+        for shape in shapes {
             for curve in at_patches(&shape.curve, shape.face) {
-                let Some((piece, extent)) = pack(&shape, paired, &curve, &mut points, &mut curves) else {
+                let Some((piece, extent)) = pack(&shape, &curve, &mut points, &mut curves) else {
                     continue;
                 };
                 pieces.push(piece);
@@ -156,20 +128,9 @@ impl RibbonScene {
 
     /// What to draw in a view to conceal gaps.
     pub fn concealing_spans(&self, view: &LevelView) -> Vec<RibbonSpan> {
-        self.spans(view, |extent| extent.paired)
-    }
-
-    /// What to draw in a view of the edges that `shown` picks by number.
-    pub fn edge_spans(&self, view: &LevelView, shown: impl Fn(u32) -> bool) -> Vec<RibbonSpan> {
-        self.spans(view, |extent| shown(extent.edge))
-    }
-
-    fn spans(&self, view: &LevelView, wanted: impl Fn(&Extent) -> bool) -> Vec<RibbonSpan> {
         let mut spans = Vec::new();
         for (number, extent) in self.extents.iter().enumerate() {
-            if wanted(extent) {
-                extent.divide(view, number as u32, (0.0, 1.0), MOST_HALVINGS, &mut spans);
-            }
+            extent.divide(view, number as u32, (0.0, 1.0), MOST_HALVINGS, &mut spans);
         }
         spans
     }
@@ -177,6 +138,9 @@ impl RibbonScene {
 
 /// Halvings of a piece at most.
 const MOST_HALVINGS: u32 = 16;
+/// Longest span, pixels where it is nearest: a strip that reached far out of the picture, or behind the eye, would
+/// take its width and depth from corners that f32 places many pixels wrong.
+const LONGEST_PX: f64 = 512.0;
 /// Allowed distance of a segment from its curve, pixels.
 const CHORD_PX: f64 = 0.1;
 
@@ -197,7 +161,8 @@ impl Extent {
             return;
         };
         let error = self.bend * length * length / f64::from(SEGMENTS * SEGMENTS);
-        if error > CHORD_PX * pixel && halvings > 0 {
+        let coarse = error > CHORD_PX * pixel || length * self.speed > LONGEST_PX * pixel;
+        if coarse && halvings > 0 {
             let half = 0.5 * (from + to);
             self.divide(view, piece, (from, half), halvings - 1, spans);
             self.divide(view, piece, (half, to), halvings - 1, spans);
@@ -258,7 +223,6 @@ const LEAST_WIDTH: f64 = 1e-3;
 
 fn pack(
     shape: &RibbonShape,
-    paired: bool,
     native: &BezierCurve2,
     points: &mut Vec<[f32; 4]>,
     curves: &mut Vec<[f32; 4]>,
@@ -276,15 +240,7 @@ fn pack(
         return None;
     }
     let (speed, bend) = measure(&curve, &patch);
-    let extent = Extent {
-        curve: curve.clone(),
-        patch: patch.clone(),
-        speed,
-        bend,
-        gap: shape.gap,
-        paired,
-        edge: shape.edge,
-    };
+    let extent = Extent { curve: curve.clone(), patch: patch.clone(), speed, bend, gap: shape.gap };
     let (origin_high, origin_low) = split_high_low(patch.bounds().centre());
     let origin = DVec3::from(origin_high.map(f64::from)) + DVec3::from(origin_low.map(f64::from));
     patch.points.iter_mut().for_each(|p| *p -= origin);
@@ -312,11 +268,7 @@ fn pack(
         first_curve,
         face: shape.slot.0,
         other: shape.other.0,
-        edge: shape.edge,
         gap: shape.gap as f32,
-        pad0: 0,
-        pad1: 0,
-        pad2: 0,
     };
     Some((piece, extent))
 }

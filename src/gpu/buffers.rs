@@ -117,10 +117,14 @@ impl SceneBuffers {
         &self.order.buffer
     }
 
-    /// Buffers in the order of the cast pass's bindings from 2 on.
-    pub fn bindings(&self) -> [&wgpu::Buffer; 6] {
-        [&self.cells, &self.points, &self.faces, &self.trim_cells, &self.trim_entries, &self.trim_data]
-            .map(|m| &m.buffer)
+    /// Faces and trims, in the order of the bindings 1 to 4 of `pass/trims.wgsl`.
+    pub fn trims(&self) -> [&wgpu::Buffer; 4] {
+        [&self.faces, &self.trim_cells, &self.trim_entries, &self.trim_data].map(|m| &m.buffer)
+    }
+
+    /// Cells and their control points.
+    pub fn cells(&self) -> [&wgpu::Buffer; 2] {
+        [&self.cells, &self.points].map(|m| &m.buffer)
     }
 
     /// The face table.

@@ -4,8 +4,13 @@
 //! What is drawn is what [`MeshScene::select`] chose; faces that have no triangles are cast in the same pass.
 
 use super::GpuError;
+use super::attachments::{group, view_binding};
 use super::buffers::{Mirror, SceneBuffers, Uploaded};
+use super::casting::{begin_visibility, cast_resources};
 use super::pipelines::{self, Pass};
+use super::renderer::{Renderer, Sample};
+use super::targets::{Targets, within};
+use crate::encoding::options::cast_flags;
 use crate::encoding::{FaceSlot, MeshScene, PackedScene, View};
 
 /// Buffers, pipeline and draw list.
@@ -94,19 +99,15 @@ impl MeshPass {
         nearest: &wgpu::Buffer,
         cast: &Pass,
     ) {
-        let [_, _, faces, trim_cells, trim_entries, trim_data] = buffers.bindings();
         if self.group.is_none() {
-            let storage =
-                [&self.vertices.buffer, &self.origins.buffer, faces, trim_cells, trim_entries, trim_data];
             let mut resources = vec![uniform.clone()];
-            resources.extend(storage.map(wgpu::Buffer::as_entire_binding));
-            self.group = Some(super::renderer::group(device, "mesh", &self.pass.layout, resources));
+            let arrays = buffers.trims().into_iter().chain([&self.vertices.buffer, &self.origins.buffer]);
+            resources.extend(arrays.map(wgpu::Buffer::as_entire_binding));
+            self.group = Some(group(device, "mesh", &self.pass.layout, resources));
         }
         if self.cast_group.is_none() {
-            let mut resources = vec![uniform, self.order.as_entire_binding()];
-            resources.extend(buffers.bindings().map(|b| b.as_entire_binding()));
-            resources.push(nearest.as_entire_binding());
-            self.cast_group = Some(super::renderer::group(device, "mesh rays", &cast.layout, resources));
+            let resources = cast_resources(uniform, buffers, &self.order, nearest);
+            self.cast_group = Some(group(device, "mesh rays", &cast.layout, resources));
         }
     }
 
@@ -123,6 +124,56 @@ impl MeshPass {
             pass.set_bind_group(0, &self.cast_group, &[view_slot]);
             pass.draw(0..14, 0..self.order_count);
         }
+    }
+}
+
+impl Renderer {
+    /// Sends the triangles that [`MeshScene::select`] chose; call after [`Self::upload`] and before
+    /// [`Self::draw_meshes`]. `lacking`: the faces that it has no triangles of, which are cast.
+    ///
+    /// # Errors
+    /// An array is larger than the device can bind.
+    pub fn upload_meshes(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        meshes: &mut MeshScene,
+        scene: &PackedScene,
+        lacking: &[FaceSlot],
+    ) -> Result<Uploaded, GpuError> {
+        let mesh = self.mesh.get_or_insert_with(|| {
+            meshes.touch_all();
+            MeshPass::new(device)
+        });
+        mesh.update(device, queue, meshes, scene, lacking)
+    }
+
+    /// Draws one sample from triangles, trimmed per pixel, in place of [`Self::cast`].
+    pub fn draw_meshes(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        sample: &Sample,
+    ) {
+        let size = within(device, sample.size);
+        let view = View::new(&sample.camera, size, sample.jitter, sample.depth, cast_flags(sample.mode));
+        let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
+        if self.targets.size != size {
+            self.targets = Targets::new(device, size);
+            self.resolve_group = None;
+            self.present_group = None;
+        }
+        self.next = None;
+        self.view = view;
+        self.fit_nearest(device, size);
+        self.reveal();
+        let uniform = view_binding(&self.uniforms);
+        let cast = &self.pipelines.cast;
+        let Some(mesh) = &mut self.mesh else { return };
+        mesh.prepare(device, uniform, &self.buffers, &self.nearest, cast);
+        let mut pass = begin_visibility(encoder, "mesh", &self.targets, &self.nearest, true);
+        mesh.draw(&mut pass, slot, cast);
     }
 }
 

@@ -6,7 +6,9 @@
 //! a sum, once per sample. **Present** divides the sum and puts it, with depth, into any target.
 //! Hovering, selection, modes and edges change only the last two.
 
+mod attachments;
 pub mod buffers;
+mod casting;
 pub mod context;
 mod mesh;
 pub mod picture;

@@ -169,28 +169,6 @@ pub(super) fn conceal(device: &wgpu::Device) -> Pass {
     )
 }
 
-/// The pipeline that draws edges in colours over a picture of `format`, hidden by its depth.
-pub(super) fn edges(device: &wgpu::Device, format: wgpu::TextureFormat) -> Pass {
-    let mut bindings = vec![uniform(size_of::<View>())];
-    bindings.extend([STORAGE; 6]);
-    build(
-        device,
-        &Recipe {
-            label: "edges",
-            source: shaders::EDGES,
-            fragment: if format.is_srgb() { "fragment_linear" } else { "fragment" },
-            bindings: &bindings,
-            target: wgpu::ColorTargetState {
-                format,
-                blend: Some(wgpu::BlendState::ALPHA_BLENDING),
-                write_mask: wgpu::ColorWrites::ALL,
-            },
-            depth: Some(wgpu::CompareFunction::GreaterEqual),
-            strip: Some(None),
-        },
-    )
-}
-
 /// The pipeline that draws triangles into the visibility buffer; both sides of a surface are seen.
 pub(super) fn mesh(device: &wgpu::Device) -> Pass {
     build(
@@ -260,7 +238,7 @@ fn build(device: &wgpu::Device, recipe: &Recipe) -> Pass {
         primitive,
         depth_stencil: recipe.depth.map(|compare| wgpu::DepthStencilState {
             format: DEPTH_FORMAT,
-            depth_write_enabled: Some(recipe.label != "edges"),
+            depth_write_enabled: Some(true),
             depth_compare: Some(compare),
             stencil: Default::default(),
             bias: Default::default(),

@@ -1,21 +1,18 @@
-//! The renderer: scene buffers, targets and the three passes of a picture.
-
-use std::ops::Range;
+//! The renderer: scene buffers, targets, and the passes from a visibility buffer to a picture. What fills the visibility
+//! buffer has files of its own: rays (`casting`), triangles (`mesh`) and fat lines (`ribbons`).
 
 use glam::DVec3;
 
 use super::GpuError;
+use super::attachments::{full_screen, group};
 use super::buffers::{SceneBuffers, Uploaded};
+use super::casting::nearest_buffer;
 use super::mesh::MeshPass;
 use super::pipelines::Pipelines;
 use super::ribbons::RibbonPass;
-use super::targets::{Sum, Targets, within};
-use crate::encoding::options::cast_flags;
+use super::targets::{Sum, Targets};
 use crate::encoding::view::DepthRange;
-use crate::encoding::{
-    DisplayMode, EdgeLook, EdgeStyle, FaceSlot, Look, MeshScene, PackedScene, RibbonScene, RibbonSpan, Theme,
-    View,
-};
+use crate::encoding::{DisplayMode, EdgeStyle, Look, PackedScene, Theme, View};
 use crate::kernel::view::Camera;
 
 /// One sample of a picture.
@@ -40,32 +37,31 @@ const SLOT_BYTES: u64 = 512;
 /// Draws packed scenes on a `wgpu` device.
 #[derive(Debug)]
 pub struct Renderer {
-    pipelines: Pipelines,
-    buffers: SceneBuffers,
-    uniforms: wgpu::Buffer,
-    next_slot: u64,
-    order_count: u32,
-    sampler: wgpu::Sampler,
+    pub(super) pipelines: Pipelines,
+    pub(super) buffers: SceneBuffers,
+    pub(super) uniforms: wgpu::Buffer,
+    pub(super) next_slot: u64,
+    pub(super) order_count: u32,
+    pub(super) sampler: wgpu::Sampler,
     /// Rays of the last complete cast, and what sees them.
-    targets: Targets,
-    view: View,
+    pub(super) targets: Targets,
+    pub(super) view: View,
     /// Rays of a cast by rows under way, and what sees them.
-    next: Option<(Targets, View)>,
-    sum: Sum,
+    pub(super) next: Option<(Targets, View)>,
+    pub(super) sum: Sum,
     /// Of each pixel the nearest depth hit so far; cleared with the depth of a cast.
-    nearest: wgpu::Buffer,
-    cast_group: Option<wgpu::BindGroup>,
-    resolve_group: Option<wgpu::BindGroup>,
-    present_group: Option<wgpu::BindGroup>,
-    samples: u32,
+    pub(super) nearest: wgpu::Buffer,
+    pub(super) cast_group: Option<wgpu::BindGroup>,
+    pub(super) resolve_group: Option<wgpu::BindGroup>,
+    pub(super) present_group: Option<wgpu::BindGroup>,
+    pub(super) samples: u32,
     /// Made when triangles are first drawn.
-    mesh: Option<MeshPass>,
-    /// Made when fat lines or edges are first drawn.
-    ribbons: Option<RibbonPass>,
+    pub(super) mesh: Option<MeshPass>,
+    /// Made when fat lines are first drawn.
+    pub(super) ribbons: Option<RibbonPass>,
     /// Whether the picture shown has its holes filled, and whether what was filled stands out.
-    concealed: bool,
-    difference: bool,
-    format: wgpu::TextureFormat,
+    pub(super) concealed: bool,
+    pub(super) difference: bool,
 }
 
 impl Renderer {
@@ -102,7 +98,6 @@ impl Renderer {
             ribbons: None,
             concealed: false,
             difference: false,
-            format,
         }
     }
 
@@ -126,230 +121,6 @@ impl Renderer {
             }
         }
         Ok(uploaded)
-    }
-
-    /// Sends the triangles that [`MeshScene::select`] chose; call after [`Self::upload`] and before
-    /// [`Self::draw_meshes`]. `lacking`: the faces that it has no triangles of, which are cast.
-    ///
-    /// # Errors
-    /// An array is larger than the device can bind.
-    pub fn upload_meshes(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        meshes: &mut MeshScene,
-        scene: &PackedScene,
-        lacking: &[FaceSlot],
-    ) -> Result<Uploaded, GpuError> {
-        let mesh = self.mesh.get_or_insert_with(|| {
-            meshes.touch_all();
-            MeshPass::new(device)
-        });
-        mesh.update(device, queue, meshes, scene, lacking)
-    }
-
-    /// Sends packed curves for [`Self::conceal`] and [`Self::draw_edges`].
-    ///
-    /// # Errors
-    /// An array is larger than the device can bind.
-    pub fn upload_ribbons(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        ribbons: &mut RibbonScene,
-    ) -> Result<u64, GpuError> {
-        let format = self.format;
-        let pass = self.ribbons.get_or_insert_with(|| {
-            ribbons.touch_all();
-            RibbonPass::new(device, format)
-        });
-        pass.update(device, queue, ribbons)
-    }
-
-    /// Sends how edges look, by their numbers; call after [`Self::upload_ribbons`].
-    ///
-    /// # Errors
-    /// There are more than the device can bind.
-    pub fn set_edge_looks(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        looks: &[EdgeLook],
-    ) -> Result<(), GpuError> {
-        self.ribbons.as_mut().map_or(Ok(()), |pass| pass.set_looks(device, queue, looks))
-    }
-
-    /// Fills holes between faces along `spans` in a copy of the last complete cast, which is then what
-    /// [`Self::shade`] and [`Self::present`] see, until the next cast. `difference`: shading is to tell what was filled.
-    pub fn conceal(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
-        spans: &[RibbonSpan],
-        difference: bool,
-    ) {
-        let view = self.view;
-        let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
-        let uniform = view_binding(&self.uniforms);
-        let Some(pass) = &mut self.ribbons else { return };
-        pass.fill(device, queue, encoder, (uniform, slot), &self.buffers, &self.targets, spans);
-        self.concealed = true;
-        self.difference = difference;
-        self.resolve_group = None;
-        self.present_group = None;
-    }
-
-    /// Shows the picture as the rays left it.
-    pub fn reveal(&mut self) {
-        if self.concealed {
-            self.concealed = false;
-            self.difference = false;
-            self.resolve_group = None;
-            self.present_group = None;
-        }
-    }
-
-    /// The textures that are shown.
-    pub fn shown(&self) -> &Targets {
-        let filled = self.ribbons.as_ref().and_then(|pass| pass.targets.as_ref());
-        filled.filter(|_| self.concealed).unwrap_or(&self.targets)
-    }
-
-    /// Draws edges along `spans` in the looks set, over `target`, hidden behind what is nearer in `depth`.
-    #[expect(clippy::too_many_arguments, reason = "what a pass reads and writes, each by name")]
-    pub fn draw_edges(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
-        (target, depth): (&wgpu::TextureView, &wgpu::TextureView),
-        sample: &Sample,
-        spans: &[RibbonSpan],
-        viewport: Option<[u32; 4]>,
-    ) {
-        let view =
-            View::new(&sample.camera, sample.size, sample.jitter, sample.depth, cast_flags(sample.mode));
-        let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
-        let uniform = view_binding(&self.uniforms);
-        let Some(ribbons) = &mut self.ribbons else { return };
-        let attachment = wgpu::RenderPassDepthStencilAttachment {
-            view: depth,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store }),
-            stencil_ops: None,
-        };
-        let mut pass = full_screen(encoder, "edges", target, wgpu::LoadOp::Load, Some(attachment));
-        if let Some([x, y, width, height]) = viewport {
-            pass.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
-        }
-        ribbons.draw_edges(device, queue, (uniform, slot), &self.buffers, spans, &mut pass);
-    }
-
-    /// Draws one sample from triangles, trimmed per pixel, in place of [`Self::cast`].
-    pub fn draw_meshes(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
-        sample: &Sample,
-    ) {
-        let size = within(device, sample.size);
-        let view = View::new(&sample.camera, size, sample.jitter, sample.depth, cast_flags(sample.mode));
-        let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
-        if self.targets.size != size {
-            self.targets = Targets::new(device, size);
-            self.resolve_group = None;
-            self.present_group = None;
-        }
-        self.next = None;
-        self.view = view;
-        self.fit_nearest(device, size);
-        self.reveal();
-        let uniform = view_binding(&self.uniforms);
-        let cast = &self.pipelines.cast;
-        let Some(mesh) = &mut self.mesh else { return };
-        mesh.prepare(device, uniform, &self.buffers, &self.nearest, cast);
-        let mut pass = begin_visibility(encoder, "mesh", &self.targets, &self.nearest, true);
-        mesh.draw(&mut pass, slot, cast);
-    }
-
-    /// Makes room for the nearest depths of a picture.
-    fn fit_nearest(&mut self, device: &wgpu::Device, size: [u32; 2]) {
-        if self.nearest.size() < nearest_bytes(size) {
-            self.nearest = nearest_buffer(device, size);
-            self.cast_group = None;
-            if let Some(mesh) = &mut self.mesh {
-                mesh.renew();
-            }
-        }
-    }
-
-    /// Casts the rays of one sample.
-    pub fn cast(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
-        sample: &Sample,
-    ) {
-        self.cast_rows(device, queue, encoder, sample, 0..u32::MAX);
-    }
-
-    /// Casts the rays of some rows of a sample: all of them, or band after band from row 0 on with the same
-    /// sample. What [`Self::shade`] and [`Self::present`] see is the last complete cast until the last row
-    /// is there; a cast that starts at row 0 drops one that was not completed.
-    pub fn cast_rows(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        encoder: &mut wgpu::CommandEncoder,
-        sample: &Sample,
-        rows: Range<u32>,
-    ) {
-        let size = within(device, sample.size);
-        let rows = rows.start.min(size[1])..rows.end.min(size[1]);
-        let view = View::new(&sample.camera, size, sample.jitter, sample.depth, cast_flags(sample.mode));
-        let whole = rows == (0..size[1]);
-        let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
-        self.fit_nearest(device, size);
-        if self.cast_group.is_none() {
-            self.cast_group = Some(self.make_cast_group(device));
-        }
-        if rows.end == size[1] {
-            self.reveal();
-        }
-        if whole && self.targets.size == size {
-            // In place: a picture in one go needs no second set of textures.
-            self.view = view;
-            self.draw_rays(encoder, &self.targets, slot, rows);
-            return;
-        }
-        let next = match self.next.take() {
-            Some((targets, _)) if targets.size == size => targets,
-            _ => Targets::new(device, size),
-        };
-        self.draw_rays(encoder, &next, slot, rows.clone());
-        if rows.end == size[1] {
-            let last = std::mem::replace(&mut self.targets, next);
-            // Kept for the next cast by rows, if there was one.
-            self.next = (!whole).then_some((last, self.view));
-            self.view = view;
-            self.resolve_group = None;
-            self.present_group = None;
-        } else {
-            self.next = Some((next, view));
-        }
-    }
-
-    fn draw_rays(&self, encoder: &mut wgpu::CommandEncoder, targets: &Targets, slot: u32, rows: Range<u32>) {
-        let first = rows.start == 0;
-        let mut pass = begin_visibility(encoder, "cast", targets, &self.nearest, first);
-        if self.order_count > 0 && !rows.is_empty() {
-            pass.set_scissor_rect(0, rows.start, targets.size[0], rows.end - rows.start);
-            pass.set_pipeline(&self.pipelines.cast.pipeline);
-            pass.set_bind_group(0, &self.cast_group, &[slot]);
-            pass.draw(0..14, 0..self.order_count);
-        }
     }
 
     /// Shades the visibility buffer and adds it to the sum; `first` starts a new sum.
@@ -439,27 +210,19 @@ impl Renderer {
         self.order_count
     }
 
-    fn write_uniform(&mut self, queue: &wgpu::Queue, bytes: &[u8]) -> u32 {
+    pub(super) fn write_uniform(&mut self, queue: &wgpu::Queue, bytes: &[u8]) -> u32 {
         let offset = (self.next_slot % SLOTS) * SLOT_BYTES;
         self.next_slot += 1;
         queue.write_buffer(&self.uniforms, offset, bytes);
         offset as u32
     }
 
-    fn uniform_binding(&self, size: usize) -> wgpu::BindingResource<'_> {
+    pub(super) fn uniform_binding(&self, size: usize) -> wgpu::BindingResource<'_> {
         wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &self.uniforms,
             offset: 0,
             size: wgpu::BufferSize::new(size as u64),
         })
-    }
-
-    fn make_cast_group(&self, device: &wgpu::Device) -> wgpu::BindGroup {
-        let mut resources =
-            vec![self.uniform_binding(size_of::<View>()), self.buffers.order().as_entire_binding()];
-        resources.extend(self.buffers.bindings().map(|b| b.as_entire_binding()));
-        resources.push(self.nearest.as_entire_binding());
-        group(device, "cast", &self.pipelines.cast.layout, resources)
     }
 
     fn make_resolve_group(&self, device: &wgpu::Device) -> wgpu::BindGroup {
@@ -499,106 +262,4 @@ pub struct Presentation {
 pub fn bounding_sphere(scene: &PackedScene) -> (DVec3, f64) {
     let bounds = scene.bounds();
     (bounds.centre(), 0.5 * bounds.diagonal())
-}
-
-fn nearest_bytes(size: [u32; 2]) -> u64 {
-    4 * u64::from(size[0]) * u64::from(size[1])
-}
-
-fn nearest_buffer(device: &wgpu::Device, size: [u32; 2]) -> wgpu::Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("nearest depths"),
-        size: nearest_bytes(size),
-        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
-}
-
-/// The view's uniform block, at a dynamic offset.
-fn view_binding(uniforms: &wgpu::Buffer) -> wgpu::BindingResource<'_> {
-    wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-        buffer: uniforms,
-        offset: 0,
-        size: wgpu::BufferSize::new(size_of::<View>() as u64),
-    })
-}
-
-/// A pass into visibility and depth; `first` clears them and the nearest depths.
-fn begin_visibility<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    label: &str,
-    targets: &Targets,
-    nearest: &wgpu::Buffer,
-    first: bool,
-) -> wgpu::RenderPass<'a> {
-    if first {
-        encoder.clear_buffer(nearest, 0, Some(nearest_bytes(targets.size)));
-    }
-    visibility_pass(encoder, label, targets, first)
-}
-
-/// A pass into visibility and depth; `first` clears them.
-pub(super) fn visibility_pass<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    label: &str,
-    targets: &Targets,
-    first: bool,
-) -> wgpu::RenderPass<'a> {
-    let clear = |value: wgpu::Color| if first { wgpu::LoadOp::Clear(value) } else { wgpu::LoadOp::Load };
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(label),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: &targets.visibility_view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations { load: clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
-        })],
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: &targets.depth_view,
-            depth_ops: Some(wgpu::Operations {
-                load: if first { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load },
-                store: wgpu::StoreOp::Store,
-            }),
-            stencil_ops: None,
-        }),
-        timestamp_writes: None,
-        occlusion_query_set: None,
-        multiview_mask: None,
-    })
-}
-
-pub(super) fn group(
-    device: &wgpu::Device,
-    label: &str,
-    layout: &wgpu::BindGroupLayout,
-    resources: Vec<wgpu::BindingResource>,
-) -> wgpu::BindGroup {
-    let entries: Vec<_> = resources
-        .into_iter()
-        .enumerate()
-        .map(|(k, resource)| wgpu::BindGroupEntry { binding: k as u32, resource })
-        .collect();
-    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
-}
-
-fn full_screen<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    label: &str,
-    view: &wgpu::TextureView,
-    load: wgpu::LoadOp<wgpu::Color>,
-    depth: Option<wgpu::RenderPassDepthStencilAttachment>,
-) -> wgpu::RenderPass<'a> {
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some(label),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
-        })],
-        depth_stencil_attachment: depth,
-        timestamp_writes: None,
-        occlusion_query_set: None,
-        multiview_mask: None,
-    })
 }

@@ -1,18 +1,17 @@
-//! Strips along exact trim curves, evaluated by the vertex stage: fat lines that conceal holes, and edges in colours.
-//!
-//! Fat lines are drawn into a copy of the rays' textures, so that both pictures stay at hand.
+//! Fat lines: strips along exact trim curves, evaluated by the vertex stage, that conceal holes. They are drawn into a
+//! copy of the rays' textures, so that both pictures stay at hand.
 
 use super::GpuError;
+use super::attachments::{group, view_binding, visibility_pass};
 use super::buffers::{Mirror, SceneBuffers};
 use super::pipelines::{self, Pass};
-use super::renderer::{group, visibility_pass};
+use super::renderer::Renderer;
 use super::targets::Targets;
-use crate::encoding::arena::Arena;
 use crate::encoding::ribbon::SEGMENTS;
-use crate::encoding::{EdgeLook, RibbonScene, RibbonSpan};
+use crate::encoding::{RibbonScene, RibbonSpan};
 
-/// Corners of the strip of a span.
-const CORNERS: u32 = 2 * (SEGMENTS + 1);
+/// Corners of the strip of a span: a pair between segments, and one beyond each end.
+const CORNERS: u32 = 2 * (SEGMENTS + 3);
 
 /// A list of spans on the GPU.
 #[derive(Debug)]
@@ -46,31 +45,23 @@ impl Spans {
 #[derive(Debug)]
 pub(super) struct RibbonPass {
     conceal: Pass,
-    edges: Pass,
     pieces: Mirror,
     points: Mirror,
     curves: Mirror,
-    looks: Mirror,
-    look_data: Arena<EdgeLook>,
-    conceal_spans: Spans,
-    edge_spans: Spans,
+    spans: Spans,
     /// The rays' picture with holes filled.
     pub targets: Option<Targets>,
 }
 
 impl RibbonPass {
-    pub fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
+    pub fn new(device: &wgpu::Device) -> Self {
         let mirror = |label| Mirror::new(device, label, 4096);
         Self {
             conceal: pipelines::conceal(device),
-            edges: pipelines::edges(device, format),
             pieces: mirror("ribbon pieces"),
             points: mirror("ribbon patches"),
             curves: mirror("ribbon curves"),
-            looks: mirror("edge looks"),
-            look_data: Arena::default(),
-            conceal_spans: Spans::new(device, 4096),
-            edge_spans: Spans::new(device, 4096),
+            spans: Spans::new(device, 4096),
             targets: None,
         }
     }
@@ -87,25 +78,18 @@ impl RibbonPass {
         Ok(pieces + points + curves)
     }
 
-    pub fn set_looks(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        looks: &[EdgeLook],
-    ) -> Result<(), GpuError> {
-        self.look_data = Arena::default();
-        self.look_data.insert(looks);
-        self.looks.update(device, queue, &mut self.look_data).map(|_| ())
-    }
-
     fn resources<'a>(
         &'a self,
         uniform: wgpu::BindingResource<'a>,
-        spans: &'a Spans,
         scene: &'a SceneBuffers,
     ) -> Vec<wgpu::BindingResource<'a>> {
-        let buffers =
-            [&self.pieces.buffer, &spans.buffer, &self.points.buffer, &self.curves.buffer, scene.faces()];
+        let buffers = [
+            &self.pieces.buffer,
+            &self.spans.buffer,
+            &self.points.buffer,
+            &self.curves.buffer,
+            scene.faces(),
+        ];
         let mut resources = vec![uniform];
         resources.extend(buffers.map(wgpu::Buffer::as_entire_binding));
         resources
@@ -123,7 +107,7 @@ impl RibbonPass {
         raw: &Targets,
         spans: &[RibbonSpan],
     ) {
-        self.conceal_spans.write(device, queue, spans);
+        self.spans.write(device, queue, spans);
         let targets = match self.targets.take() {
             Some(targets) if targets.size == raw.size => targets,
             _ => Targets::new(device, raw.size),
@@ -131,38 +115,72 @@ impl RibbonPass {
         for (from, to) in [(&raw.visibility, &targets.visibility), (&raw.depth, &targets.depth)] {
             encoder.copy_texture_to_texture(from.as_image_copy(), to.as_image_copy(), from.size());
         }
-        let mut resources = self.resources(uniform, &self.conceal_spans, scene);
+        let mut resources = self.resources(uniform, scene);
         resources.push(wgpu::BindingResource::TextureView(&raw.visibility_view));
         resources.push(wgpu::BindingResource::TextureView(&raw.depth_view));
         let bind_group = group(device, "conceal", &self.conceal.layout, resources);
-        if self.conceal_spans.count > 0 {
+        if self.spans.count > 0 {
             let mut pass = visibility_pass(encoder, "conceal", &targets, false);
             pass.set_pipeline(&self.conceal.pipeline);
             pass.set_bind_group(0, &bind_group, &[slot]);
-            pass.draw(0..CORNERS, 0..self.conceal_spans.count);
+            pass.draw(0..CORNERS, 0..self.spans.count);
         }
         self.targets = Some(targets);
     }
+}
 
-    /// Draws edges in their looks into a pass with the surfaces' depth.
-    pub fn draw_edges(
+impl Renderer {
+    /// Sends packed curves for [`Self::conceal`].
+    ///
+    /// # Errors
+    /// An array is larger than the device can bind.
+    pub fn upload_ribbons(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        (uniform, slot): (wgpu::BindingResource, u32),
-        scene: &SceneBuffers,
+        ribbons: &mut RibbonScene,
+    ) -> Result<u64, GpuError> {
+        let pass = self.ribbons.get_or_insert_with(|| {
+            ribbons.touch_all();
+            RibbonPass::new(device)
+        });
+        pass.update(device, queue, ribbons)
+    }
+
+    /// Fills holes between faces along `spans` in a copy of the last complete cast, which is then what
+    /// [`Self::shade`] and [`Self::present`] see, until the next cast. `difference`: shading is to tell what was filled.
+    pub fn conceal(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
         spans: &[RibbonSpan],
-        pass: &mut wgpu::RenderPass,
+        difference: bool,
     ) {
-        self.edge_spans.write(device, queue, spans);
-        if spans.is_empty() || self.look_data.data().is_empty() {
-            return;
+        let view = self.view;
+        let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
+        let uniform = view_binding(&self.uniforms);
+        let Some(pass) = &mut self.ribbons else { return };
+        pass.fill(device, queue, encoder, (uniform, slot), &self.buffers, &self.targets, spans);
+        self.concealed = true;
+        self.difference = difference;
+        self.resolve_group = None;
+        self.present_group = None;
+    }
+
+    /// Shows the picture as the rays left it.
+    pub fn reveal(&mut self) {
+        if self.concealed {
+            self.concealed = false;
+            self.difference = false;
+            self.resolve_group = None;
+            self.present_group = None;
         }
-        let mut resources = self.resources(uniform, &self.edge_spans, scene);
-        resources.push(self.looks.buffer.as_entire_binding());
-        let bind_group = group(device, "edges", &self.edges.layout, resources);
-        pass.set_pipeline(&self.edges.pipeline);
-        pass.set_bind_group(0, &bind_group, &[slot]);
-        pass.draw(0..CORNERS, 0..self.edge_spans.count);
+    }
+
+    /// The textures that are shown.
+    pub fn shown(&self) -> &Targets {
+        let filled = self.ribbons.as_ref().and_then(|pass| pass.targets.as_ref());
+        filled.filter(|_| self.concealed).unwrap_or(&self.targets)
     }
 }

@@ -19,6 +19,7 @@ pub const CAST: &str = pieces!(
     "lib/seeds.wgsl",
     "lib/solve.wgsl",
     "lib/classify.wgsl",
+    "pass/trims.wgsl",
     "pass/cast.wgsl",
 );
 
@@ -30,6 +31,7 @@ pub const MESH: &str = pieces!(
     "lib/axes.wgsl",
     "lib/pack.wgsl",
     "lib/classify.wgsl",
+    "pass/trims.wgsl",
     "pass/mesh.wgsl",
 );
 
@@ -47,18 +49,6 @@ pub const CONCEAL: &str = pieces!(
     "pass/conceal.wgsl",
 );
 
-/// Draws edges in colours.
-pub const EDGES: &str = pieces!(
-    "layout/view.wgsl",
-    "layout/face.wgsl",
-    "layout/ribbon.wgsl",
-    "lib/axes.wgsl",
-    "lib/patch_jet.wgsl",
-    "lib/ribbon.wgsl",
-    "lib/shade.wgsl",
-    "pass/edges.wgsl",
-);
-
 /// Shades the visibility buffer.
 pub const RESOLVE: &str = pieces!(
     "layout/face.wgsl",
@@ -73,11 +63,5 @@ pub const RESOLVE: &str = pieces!(
 pub const PRESENT: &str = pieces!("layout/look.wgsl", "lib/shade.wgsl", "pass/present.wgsl");
 
 /// Every module with its name, for validation.
-pub const MODULES: [(&str, &str); 6] = [
-    ("cast", CAST),
-    ("mesh", MESH),
-    ("conceal", CONCEAL),
-    ("edges", EDGES),
-    ("resolve", RESOLVE),
-    ("present", PRESENT),
-];
+pub const MODULES: [(&str, &str); 5] =
+    [("cast", CAST), ("mesh", MESH), ("conceal", CONCEAL), ("resolve", RESOLVE), ("present", PRESENT)];

@@ -1,20 +1,18 @@
-//! The edges of a model as ribbons for drawing: fat lines as wide as the measured gaps, and edges in colours.
+//! The edges of a model as ribbons: fat lines as wide as the measured gaps.
 
-use super::{EdgeKey, EdgeKind, Inspection};
+use super::{EdgeKind, Inspection};
 use crate::encoding::{FaceSlot, RibbonScene, RibbonShape};
 use crate::kernel::face::Face;
 
-/// Packs all edges. `face`: the derived face at a position of the model and its slot in the packed scene. Returns the
-/// ribbons and the edges by the numbers that their ribbons carry.
+/// Packs all edges with two sides or more. `face`: the derived face at a position of the model and its slot in the packed
+/// scene.
 pub fn ribbons<'a>(
     inspection: &Inspection,
     face: &dyn Fn(usize) -> Option<(&'a Face, FaceSlot)>,
-) -> (RibbonScene, Vec<EdgeKey>) {
-    let (mut shapes, mut keys) = (Vec::new(), Vec::new());
-    for (key, edge) in inspection.edges() {
-        let number = keys.len() as u32;
-        keys.push(*key);
-        if edge.kind == EdgeKind::Degenerate {
+) -> RibbonScene {
+    let mut shapes = Vec::new();
+    for (_, edge) in inspection.edges() {
+        if edge.kind == EdgeKind::Degenerate || edge.uses.len() < 2 {
             continue;
         }
         let gap = edge.gap.map_or(0.0, |g| g.maximum + g.error_bound);
@@ -33,10 +31,9 @@ pub fn ribbons<'a>(
                 }
                 let whole = low <= 0.0 && high >= 1.0;
                 let curve = if whole { piece.clone() } else { piece.restrict(low.max(0.0), high.min(1.0)) };
-                let shape = RibbonShape { face: own, slot, other, curve, gap, edge: number };
-                shapes.push((shape, edge.uses.len() > 1));
+                shapes.push(RibbonShape { face: own, slot, other, curve, gap });
             }
         }
     }
-    (RibbonScene::new(shapes), keys)
+    RibbonScene::new(shapes)
 }

@@ -161,8 +161,8 @@ pub fn cast(
 /// so that no ray passes between them.
 const ROUNDING_UV: f32 = 1.2e-7;
 
-/// Whether the trims keep `uv`, or a point that rounding may have moved there.
-fn is_kept(grid: &GridView, uv: Vec2, counters: &mut Counters) -> bool {
+/// Whether the trims keep `uv` (face-normalised), or a point that rounding may have moved there.
+pub fn is_kept(grid: &GridView, uv: Vec2, counters: &mut Counters) -> bool {
     let nudge = |k: u32| {
         let by = if k & 1 == 0 { ROUNDING_UV } else { -ROUNDING_UV };
         uv + if k < 2 { Vec2::new(by, 0.0) } else { Vec2::new(0.0, by) }

@@ -1,15 +1,17 @@
 //! Pixels that may be pin holes: something farther shows where a nearer surface lies on both sides.
 //!
-//! Twin of `shaders/lib/holes.wgsl`. For every pixel the neighbours in four directions and their opposites are looked at, up to a few pixels away. A
-//! pixel is a candidate when a neighbour and one opposite to it belong to faces that share an edge, their tangent
-//! planes are about as deep at the pixel, and what the pixel shows lies behind both. Claux (2014) finds holes to fill by the same opposite neighbours; here they are only candidates, for
-//! [`crate::inspect`] to prove against the exact geometry.
+//! Twin of `shaders/lib/holes.wgsl`. For every pixel the neighbours in four directions and their opposites are looked
+//! at, up to a few pixels away. A pixel is a candidate when a neighbour and one opposite to it belong to faces that share
+//! an edge, their tangent planes are about as deep at the pixel, and what the pixel shows lies behind both. Claux (2014)
+//! finds holes to fill by the same opposite neighbours; here they are only candidates, for [`crate::inspect`] to prove
+//! against the exact geometry.
 
 use glam::{IVec2, Vec2};
 use rayon::prelude::*;
 
 use super::cast::{Fragment, view_ray};
 use super::pack::unpack_normal;
+use super::ray::{plane_depth, ray_point};
 use super::visibility::VisibilityBuffer;
 use crate::encoding::View;
 
@@ -26,6 +28,8 @@ pub struct HoleCandidate {
 
 /// How far neighbours are looked for, pixels: wider holes are found from their edges.
 pub const REACH: i32 = 3;
+/// Steps of a search grow slowly beyond this many pixels: the sides of a wide slit are wider than the steps.
+const EXACT: i32 = 16;
 const DIRECTIONS: [IVec2; 4] = [IVec2::X, IVec2::Y, IVec2::ONE, IVec2::new(1, -1)];
 
 /// All candidates in `buffer`, by rows. `shares` tells whether two faces (slots) have an edge in common.
@@ -83,17 +87,54 @@ impl Neighbourhood<'_> {
         None
     }
 
-    /// Whether a slit across `direction` (unit, pixels) that is up to `most` pixels wide on either side holds a pixel.
-    pub fn wide_candidate(&self, [x, y]: [u32; 2], direction: Vec2, most: i32) -> bool {
-        let pixel = IVec2::new(x as i32, y as i32);
+    /// The first nearer surface along `direction` (unit, pixels), up to `most` pixels away.
+    fn search(&self, pixel: IVec2, direction: Vec2, most: i32) -> Option<Side> {
         let here = self.buffer.at(pixel.x, pixel.y);
         let z = if here.words[0] == 0 { f32::INFINITY } else { z_of(self.view, &here) };
-        let find = |sign: f32| {
-            let step = |k: i32| (sign * k as f32 * direction).round().as_ivec2();
-            (1..=most).find_map(|k| self.side(pixel, step(k), &here, z))
-        };
-        matches!((find(-1.0), find(1.0)), (Some(a), Some(b))
+        let mut k = 1;
+        while k <= most {
+            let step = (k as f32 * direction).round().as_ivec2();
+            if let Some(side) = self.side(pixel, step, &here, z) {
+                return Some(side);
+            }
+            k += 1 + k / EXACT;
+        }
+        None
+    }
+
+    /// Whether a slit across `direction` (unit, pixels) that is up to `most` pixels wide on either side holds a pixel.
+    pub fn wide_candidate(&self, pixel: IVec2, direction: Vec2, most: i32) -> bool {
+        let find = |direction: Vec2| self.search(pixel, direction, most);
+        matches!((find(-direction), find(direction)), (Some(a), Some(b))
             if self.one_depth(&a, &b) && (self.shares)(a.face, b.face))
+    }
+
+    /// Where a side of the slit lies outside of the picture or behind another face than `a` and `b` (slots): whether the
+    /// slit is one farther along, where both can be seen.
+    pub fn candidate_along(&self, pixel: IVec2, direction: Vec2, most: i32, [a, b]: [u32; 2]) -> bool {
+        let size = Vec2::new(self.buffer.width as f32, self.buffer.height as f32);
+        let inside = |p: Vec2| p.cmpge(Vec2::ZERO).all() && p.cmplt(size).all();
+        let (centre, across) = (pixel.as_vec2() + 0.5, most as f32 * direction);
+        if inside(centre + across) && inside(centre - across) {
+            let find = |direction: Vec2| self.search(pixel, direction, most);
+            let (Some(first), Some(second)) = (find(-direction), find(direction)) else { return false };
+            let is_of = |side: Side| side.face == a || side.face == b;
+            if is_of(first) == is_of(second) {
+                return false;
+            }
+        }
+        let along = Vec2::new(-direction.y, direction.x);
+        let mut k = 1;
+        while k <= 2 * most {
+            for sign in [-1, 1] {
+                let at = pixel + ((sign * k) as f32 * along).round().as_ivec2();
+                if inside(at.as_vec2()) && self.wide_candidate(at, direction, most) {
+                    return true;
+                }
+            }
+            k *= 2;
+        }
+        false
     }
 
     fn width(&self, z: f32) -> f32 {
@@ -130,13 +171,9 @@ impl Neighbourhood<'_> {
     /// its edge, no more than a slope of 30 is believed.
     fn plane_z(&self, at: IVec2, pixel: IVec2, z: f32, normal: u32) -> f32 {
         let position = |p: IVec2| p.as_vec2() + 0.5 + Vec2::from(self.view.jitter);
-        let n = unpack_normal(normal);
         let (from, to) = (view_ray(self.view, position(at)), view_ray(self.view, position(pixel)));
-        let p = super::ray::ray_point(from, z);
-        let down = n.dot(to.slope.extend(1.0));
         let limit = 30.0 * self.width(z) * (pixel - at).abs().max_element() as f32;
-        let plane = n.dot(p - to.offset.extend(0.0)) / down;
-        if plane.is_finite() { plane.clamp(z - limit, z + limit) } else { z }
+        plane_depth(unpack_normal(normal), ray_point(from, z), to).max(z - limit).min(z + limit)
     }
 
     /// Whether two sides may be the two sides of one slit: at the pixel their planes are about as deep.

@@ -3,14 +3,13 @@
 use glam::{DVec2, Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::cast::{Fragment, grid_view, view_axes};
+use super::cast::{Fragment, grid_view, is_kept, view_axes};
 use super::pack::{pack_heat, pack_normal};
 use super::raster::{Triangle, depth_of, place};
 use super::solve::{BELOW_ONE, axes_apply};
 use super::visibility::{self, VisibilityBuffer};
 use crate::encoding::view::{CAST_HEAT, CAST_TRIM, View};
 use crate::encoding::{FaceHeader, FaceSlot, MeshScene, MeshVertex, PackedScene};
-use crate::kernel::trim::grid::classify;
 use crate::kernel::trim::tally::Counters;
 
 /// Rows of the picture drawn by one task.
@@ -78,7 +77,7 @@ fn shade(scene: &PackedScene, view: &View, drawn: &Drawn, pixel: [u32; 2], best:
     let (trim, heat) = (view.flags & CAST_TRIM != 0, view.flags & CAST_HEAT != 0);
     let trimmed = face.flags & FaceHeader::TRIMMED != 0 && corners[0].flags & MeshVertex::WHOLE == 0;
     let mut counters = Counters::default();
-    let kept = !(trim && trimmed) || classify(&grid_view(scene, face), uv.x, uv.y, &mut counters);
+    let kept = !(trim && trimmed) || is_kept(&grid_view(scene, face), uv, &mut counters);
     if !kept && !heat {
         return None;
     }

@@ -16,6 +16,12 @@ pub fn ray_point(ray: Ray, z: f32) -> Vec3 {
     (ray.offset + ray.slope * z).extend(z)
 }
 
+/// Depth at which a ray meets the plane through `p` with normal `n`.
+pub fn plane_depth(n: Vec3, p: Vec3, ray: Ray) -> f32 {
+    let down = n.dot(ray.slope.extend(1.0));
+    n.dot(p - ray.offset.extend(0.0)) / if down.abs() < 1e-30 { 1e-30 } else { down }
+}
+
 /// A box in view axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViewBox {

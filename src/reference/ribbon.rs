@@ -1,13 +1,14 @@
 //! Points of trim curves in space, and fat lines along them. Twin of `shaders/lib/ribbon.wgsl` and
 //! `shaders/pass/conceal.wgsl`.
 
-use glam::{Vec2, Vec3, Vec3Swizzles, Vec4Swizzles};
+use glam::{DVec2, DVec3, IVec2, Vec2, Vec3, Vec3Swizzles, Vec4Swizzles};
 
 use super::cast::{Fragment, view_axes};
 use super::holes::{Neighbourhood, REACH, z_of};
 use super::pack::pack_normal;
 use super::patch_jet::patch_jet;
 use super::raster::{Triangle, depth_of, place};
+use super::ray::{Ray, plane_depth, ray_point};
 use super::solve::{Axes, BELOW_ONE, axes_apply};
 use super::visibility::VisibilityBuffer;
 use crate::encoding::ribbon::{RibbonPiece, RibbonScene, RibbonSpan, SEGMENTS};
@@ -86,8 +87,15 @@ fn screen_direction(view: &View, at: &RibbonPoint, w: f32) -> Vec2 {
     if d.length() > 1e-30 { d / d.length() } else { Vec2::X }
 }
 
+/// By how many pixels per pixel a strip may rise with the tangent plane that it lies in.
+const STEEPEST: f32 = 4.0;
+/// Of two strips in one plane the one whose curve is nearer is shown: strips are this much farther per pixel.
+const FARTHER_PX: f32 = 0.02;
+/// A third face shows through a wide hole only when it is farther behind than this many times the distance from the
+/// curve: where three faces meet, the third bends away beside and beyond the ends of the strip.
+const CLEAR: f32 = 3.0;
 const MARGIN_PX: f32 = 1.0;
-const MOST_PX: f32 = 96.0;
+const MOST_PX: f32 = 512.0;
 
 /// The picture with the holes between faces that share an edge filled along `spans`.
 pub fn conceal(
@@ -108,12 +116,17 @@ pub fn conceal(
     result
 }
 
-/// A pair of corners of a strip.
-struct Rung {
-    at: RibbonPoint,
-    placed: [glam::DVec3; 2],
+/// A corner of a strip.
+struct Corner {
+    /// In pixels times w, and w.
+    placed: DVec3,
+    /// View depth.
+    z: f32,
+    uv: Vec2,
+    normal: Vec3,
     sideways: Vec2,
-    reach: f32,
+    /// Beside the curve and beyond its end, pixels.
+    off: Vec2,
 }
 
 fn draw_span(
@@ -128,29 +141,43 @@ fn draw_span(
     let xyz = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
     let reference = (xyz(view.reference_high), xyz(view.reference_low));
     let rung = |k: u32| {
-        let part = k as f32 / SEGMENTS as f32;
+        // The first and the last pair run on beyond the ends, so that no corner stays open.
+        let part = (k.clamp(1, SEGMENTS + 1) - 1) as f32 / SEGMENTS as f32;
         let t = span.start * (1.0 - part) + span.end * part;
         let at = ribbon_point(ribbons, piece, &axes, reference, t);
         let w = view.depth[2] + view.depth[3] * at.p.z;
         let direction = screen_direction(view, &at, w);
-        let reach = (piece.gap / (view.pixel[0] + view.pixel[1] * at.p.z.abs())).min(MOST_PX) + MARGIN_PX;
+        let pixel = view.pixel[0] + view.pixel[1] * at.p.z.abs();
+        let reach = (piece.gap / pixel).min(MOST_PX) + MARGIN_PX;
         let sideways = Vec2::new(-direction.y, direction.x);
         let end = match k {
             0 => -reach,
-            SEGMENTS => reach,
+            k if k == SEGMENTS + 2 => reach,
             _ => 0.0,
         };
-        let corner = |side: f32| place(view, at.p, (sideways * side + direction * end).as_dvec2());
-        Rung { at, placed: [corner(-reach), corner(reach)], sideways, reach }
+        [-reach, reach].map(|side| {
+            let shift_px = sideways * side + direction * end;
+            let shift = shift_px * Vec2::new(2.0, -2.0) / Vec2::from(view.size);
+            let w = if w == 0.0 { 1e-30 } else { w };
+            let ndc = at.p.xy() * Vec2::from(view.clip_scale) / w + shift;
+            let ray = Ray {
+                slope: ndc * Vec2::from(view.slope_scale),
+                offset: ndc * Vec2::from(view.offset_scale),
+            };
+            // In perspective no corner leaves its side of the eye.
+            let most = if view.depth[3] == 0.0 { 1e30 } else { 0.5 * at.p.z.abs() };
+            let limit = (STEEPEST * shift_px.length() * pixel).min(most);
+            let z = plane_depth(at.normal, at.p, ray).max(at.p.z - limit).min(at.p.z + limit);
+            let placed = place(view, ray_point(ray, z), DVec2::ZERO);
+            Corner { placed, z, uv: at.uv, normal: at.normal, sideways, off: Vec2::new(side, end.abs()) }
+        })
     };
     let mut last = rung(0);
-    for k in 1..=SEGMENTS {
+    for k in 1..=SEGMENTS + 2 {
         let next = rung(k);
-        let corners = [(&last, 0), (&last, 1), (&next, 0), (&next, 1)];
-        for [a, b, c] in [[0, 1, 2], [2, 1, 3]] {
-            let corners = [corners[a], corners[b], corners[c]];
-            if let Some(triangle) = Triangle::new(corners.map(|(rung, side)| rung.placed[side]), view) {
-                fill(piece, corners.map(|(rung, _)| rung), &triangle, raw, view, result);
+        for corners in [[&last[0], &last[1], &next[0]], [&next[0], &last[1], &next[1]]] {
+            if let Some(triangle) = Triangle::new(corners.map(|corner| corner.placed), view) {
+                fill(piece, corners, &triangle, raw, view, result);
             }
         }
         last = next;
@@ -159,7 +186,7 @@ fn draw_span(
 
 fn fill(
     piece: &RibbonPiece,
-    rungs: [&Rung; 3],
+    corners: [&Corner; 3],
     triangle: &Triangle,
     raw: &VisibilityBuffer,
     view: &View,
@@ -170,24 +197,37 @@ fn fill(
     for y in triangle.rows.0..triangle.rows.1 {
         for x in triangle.columns.0..triangle.columns.1 {
             let Some(part) = triangle.weights([x, y]) else { continue };
-            let mix = |pick: &dyn Fn(&Rung) -> Vec3| (0..3).map(|k| part[k] * pick(rungs[k])).sum::<Vec3>();
-            let depth = depth_of(view, mix(&|r| r.at.p).z);
+            let mix =
+                |pick: &dyn Fn(&Corner) -> Vec3| (0..3).map(|k| part[k] * pick(corners[k])).sum::<Vec3>();
+            let z_line: f32 = (0..3).map(|k| part[k] * corners[k].z).sum();
             let here = raw.at(x as i32, y as i32);
             let best = &mut result.fragments[(y * raw.width + x) as usize];
-            let line = Fragment { words: [0; 4], depth };
-            let behind = here.words[0] == 0 || z_of(view, &here) > z_of(view, &line);
-            if !behind || depth <= best.depth || depth > 1.0 {
+            let z_here = if here.words[0] == 0 { f32::INFINITY } else { z_of(view, &here) };
+            if z_here <= z_line {
                 continue;
             }
-            let reach = rungs[0].reach.ceil() as i32;
-            let across = mix(&|r| r.sideways.extend(0.0)).xy().normalize_or(Vec2::X);
-            let hole = look.candidate(x as i32, y as i32).is_some()
-                || (reach > REACH && look.wide_candidate([x, y], across, 2 * reach));
+            let off: Vec2 = (0..3).map(|k| part[k] * corners[k].off).sum();
+            let width = view.pixel[0] + view.pixel[1] * z_line.abs();
+            let depth = depth_of(view, z_line + FARTHER_PX * off.x.abs() * width);
+            if depth <= best.depth || depth > 1.0 {
+                continue;
+            }
+            let reach = corners[0].off.x.abs().ceil() as i32;
+            let across = mix(&|c| c.sideways.extend(0.0)).xy().normalize_or(Vec2::X);
+            let pixel = IVec2::new(x as i32, y as i32);
+            let third = here.words[0] != piece.face + 1 && here.words[0] != piece.other + 1;
+            let clear = if third { CLEAR * (off.x.abs() + off.y) * width } else { 0.0 };
+            let sides = [piece.face, piece.other];
+            let hole = look.candidate(pixel.x, pixel.y).is_some()
+                || (reach >= REACH
+                    && z_here > z_line + clear
+                    && (look.wide_candidate(pixel, across, 2 * reach)
+                        || (off.y <= 1.0 && look.candidate_along(pixel, across, 2 * reach, sides))));
             if !hole {
                 continue;
             }
-            let uv = mix(&|r| r.at.uv.extend(0.0)).xy().clamp(Vec2::ZERO, Vec2::splat(BELOW_ONE));
-            let normal = mix(&|r| r.at.normal);
+            let uv = mix(&|c| c.uv.extend(0.0)).xy().clamp(Vec2::ZERO, Vec2::splat(BELOW_ONE));
+            let normal = mix(&|c| c.normal);
             let word = pack_normal(normal / normal.length().max(1e-37));
             *best = Fragment { words: [piece.face + 1, uv.x.to_bits(), uv.y.to_bits(), word], depth };
         }

@@ -12,6 +12,7 @@ mod iges_truth;
 mod import;
 mod json_schema;
 mod mutations;
+mod pin_holes;
 mod points;
 mod saving;
 mod tessellation;

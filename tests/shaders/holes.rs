@@ -55,7 +55,7 @@ impl Bench {
         let scene = PackedScene::from_faces(faces.iter().map(|f| FaceShape::of(f, None, false)));
         let inspection = Inspection::of(records);
         let pairs = EdgePairs::of(&inspection);
-        let (ribbons, _) = inspect::ribbons(&inspection, &|k| Some((faces.get(k)?, FaceSlot(k as u32))));
+        let ribbons = inspect::ribbons(&inspection, &|k| Some((faces.get(k)?, FaceSlot(k as u32))));
         Self { faces, scene, inspection, pairs, ribbons }
     }
 
@@ -120,9 +120,9 @@ fn known_holes_are_found_one_by_one_and_filled() {
     let mut renderer = Renderer::new(&context.device, wgpu::TextureFormat::Rgba8Unorm);
     renderer.upload(&context.device, &context.queue, &mut bench.scene).expect("small");
     renderer.upload_ribbons(&context.device, &context.queue, &mut bench.ribbons).expect("small");
-    let (mut known, mut missed, mut invented, mut left, mut strays) = (0, 0, 0, 0, 0);
-    for pixels in [0.2, 1.0, 3.0, 14.0] {
-        for (k, camera) in cameras(gap, pixels).iter().enumerate() {
+    let (mut known, mut rounded, mut missed, mut invented, mut left, mut strays) = (0, 0, 0, 0, 0, 0);
+    for (pixels, views) in [(0.2, 4), (1.0, 4), (3.0, 4), (14.0, 4), (60.0, 2)] {
+        for (k, camera) in cameras(gap, pixels).iter().take(views).enumerate() {
             let depth = bench.depth(camera);
             let sample = Sample {
                 camera: *camera,
@@ -140,7 +140,10 @@ fn known_holes_are_found_one_by_one_and_filled() {
                 match is_hole(camera, gap, x, y) {
                     Some(true) => {
                         known += 1;
-                        missed += usize::from(!at(x, y));
+                        // At the closest zoom rounding on plates of 20 mm reaches as far as a part of a pixel.
+                        let covered = matches!(raw.at(x as i32, y as i32).words[0], 1 | 2);
+                        rounded += usize::from(covered);
+                        missed += usize::from(!covered && !at(x, y));
                     }
                     Some(false) => invented += usize::from(at(x, y)),
                     None => {}
@@ -173,8 +176,8 @@ fn known_holes_are_found_one_by_one_and_filled() {
     }
     assert!(known > 5_000, "{known}");
     assert_eq!(missed, 0, "of {known} holes");
+    assert!(100 * rounded <= known, "{rounded} of {known} holes are covered by rounding");
     assert!(100 * invented <= known, "{invented} invented beside {known}");
-    // Wide holes are not yet filled to their middle: the aim is none left.
-    assert!(2 * left < known, "{left} of {known} holes left");
+    assert_eq!(left, 0, "of {known} holes");
     assert_eq!(strays, 0, "pixels changed away from holes");
 }

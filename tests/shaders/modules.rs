@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use hairline::encoding::cell::Cell;
-use hairline::encoding::{EdgeLook, FaceHeader, Look, MeshOrigin, MeshVertex, RibbonPiece, RibbonSpan, View};
+use hairline::encoding::{FaceHeader, Look, MeshOrigin, MeshVertex, RibbonPiece, RibbonSpan, View};
 use hairline::gpu::shaders;
 use hairline::kernel::trim::grid::GridHeader;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -57,11 +57,9 @@ fn rust_mirrors_match_the_shaders() {
     assert_eq!(members(&resolve, "Look"), look);
     let conceal = parse(shaders::CONCEAL);
     let piece = layout!(RibbonPiece: origin_high, first_point, origin_low, degrees, uv_min, uv_max, first_curve,
-        face, other, edge, gap, pad0, pad1, pad2);
+        face, other, gap);
     assert_eq!(members(&conceal, "RibbonPiece"), piece);
     assert_eq!(members(&conceal, "RibbonSpan"), layout!(RibbonSpan: piece, start, end, pad0));
-    let edges = parse(shaders::EDGES);
-    assert_eq!(members(&edges, "EdgeLook"), layout!(EdgeLook: colour, width, pad0, pad1, pad2));
     let mesh = parse(shaders::MESH);
     let vertex = layout!(MeshVertex: position, face, normal, flags, uv, pad0, pad1);
     assert_eq!(members(&mesh, "MeshVertex"), vertex);

@@ -92,7 +92,7 @@ pub fn draw(
 fn fat_lines(model: &ModelRecord, ready: &Prepared, options: &RenderOptions, holes: Holes) -> RibbonChoice {
     let inspection = Inspection::in_unit(&model.faces, model.unit.millimetres);
     let face = |k: usize| Some((ready.faces.get(k)?.as_ref()?, FaceSlot(k as u32)));
-    let (scene, _) = inspect::ribbons(&inspection, &face);
+    let scene = inspect::ribbons(&inspection, &face);
     let spans = scene.concealing_spans(&LevelView::new(&options.camera, options.size));
     let conceal = match holes {
         Holes::Raw => Conceal::Raw,

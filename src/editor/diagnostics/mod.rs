@@ -22,6 +22,8 @@ pub struct Figures {
     pub samples_wanted: u32,
     /// Part of the full resolution (1 = all pixels).
     pub resolution: f32,
+    /// Whether the picture is drawn from triangles.
+    pub triangles: bool,
     /// Bytes of the model on the GPU.
     pub gpu_bytes: u64,
     /// Frames drawn since start.

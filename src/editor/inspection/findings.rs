@@ -13,7 +13,7 @@ use crate::inspect::{Edge, EdgeKey, Inspection, Statistics};
 /// The edges of everything open, once they are measured.
 #[derive(Resource, Default)]
 pub struct Findings {
-    inspection: Option<Inspection>,
+    inspection: Option<Arc<Inspection>>,
     /// Faces by their number in the inspection.
     faces: Vec<Entity>,
     numbers: EntityHashMap<usize>,
@@ -64,7 +64,12 @@ impl Findings {
 
     /// The edges; none before the first measurement.
     pub fn inspection(&self) -> Option<&Inspection> {
-        self.inspection.as_ref()
+        self.inspection.as_deref()
+    }
+
+    /// The edges, to be looked at on a thread. What is measured meanwhile does not change them.
+    pub fn shared_inspection(&self) -> Option<Arc<Inspection>> {
+        self.inspection.clone()
     }
 
     /// An edge.
@@ -145,7 +150,7 @@ impl Findings {
                 self.numbers = worker.faces.iter().enumerate().map(|(k, f)| (*f, k)).collect();
                 self.faces = worker.faces;
                 self.scene = Some(worker.scene);
-                self.inspection = Some(inspection);
+                self.inspection = Some(Arc::new(inspection));
                 self.dirty = None;
                 self.settle();
                 Some(worker.changed)
@@ -165,7 +170,7 @@ impl Findings {
     pub(super) fn update(&mut self, face: Entity, parts: &FaceParts) {
         let Some(number) = self.number(face) else { return };
         if let Some(inspection) = &mut self.inspection {
-            inspection.update(number, &parts.to_record());
+            Arc::make_mut(inspection).update(number, &parts.to_record());
             if let Some(dirty) = &mut self.dirty {
                 dirty.insert(number);
             }
@@ -184,7 +189,7 @@ impl Findings {
 
     /// Counts again after edges changed.
     pub(super) fn settle(&mut self) {
-        self.statistics = self.inspection.as_ref().map(Statistics::of).unwrap_or_default();
+        self.statistics = self.inspection.as_deref().map(Statistics::of).unwrap_or_default();
         self.statistics.scale(self.unit());
         self.revision += 1;
     }

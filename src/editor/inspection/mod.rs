@@ -12,6 +12,7 @@ mod findings;
 mod follow;
 mod lines;
 mod mend;
+mod picture;
 mod pin_holes;
 mod probe;
 pub mod ramp;
@@ -23,11 +24,13 @@ pub use choose::{Chosen, InspectRequest};
 pub use findings::{Findings, Progress};
 pub use lines::{EdgeLine, EdgeLines};
 pub use mend::{CloseGap, MendChoices, MendOutcome, can_close};
-pub use pin_holes::PinHoles;
+pub use picture::{LatestPicture, Picture};
+pub use pin_holes::{HoleGroup, PinHoles, are_marked};
 pub use probe::{Probe, local_gap};
 pub use rows::{Column, Filter, Order, Row, Rows};
 
 use super::EditorSystems;
+use super::picking::ClickTargets;
 
 /// The user's choices about the inspection.
 #[derive(Resource, Debug, Clone, PartialEq)]
@@ -61,10 +64,15 @@ impl Plugin for InspectionPlugin {
             .init_resource::<Findings>()
             .init_resource::<Rows>()
             .init_resource::<PinHoles>()
+            .init_resource::<LatestPicture>()
             .init_resource::<EdgeLines>()
             .init_resource::<Chosen>()
             .init_resource::<Probe>()
             .add_systems(Update, (choose::command_requests, mend::serve).in_set(EditorSystems::Tools))
+            .add_systems(
+                Update,
+                (pin_holes::click.in_set(ClickTargets), pin_holes::blink).in_set(EditorSystems::Tools),
+            )
             .add_systems(
                 Update,
                 (

@@ -10,6 +10,7 @@ mod help;
 mod history;
 pub(super) mod icon;
 mod inspection;
+mod lens;
 mod menu;
 mod notice;
 mod problems;
@@ -49,7 +50,7 @@ use super::settings::Settings;
 use super::theme::{self, Palette};
 use super::tools::{Action, CommandRequest, CurrentSituation};
 use super::uv::{self, UvParams};
-use super::viewport::Viewport;
+use super::viewport::{Pointer, Viewport};
 
 /// Adds the panels.
 pub struct PanelsPlugin;
@@ -110,6 +111,7 @@ pub(super) struct Reads<'w, 's> {
     pub problems: Res<'w, ProblemList>,
     pub bounds: Res<'w, SceneBounds>,
     pub picker: Res<'w, Picker>,
+    pub pointer: Res<'w, Pointer>,
     pub left: Res<'w, LeftButton>,
     pub camera: Res<'w, ViewCamera>,
     pub figures: Res<'w, RenderFigures>,
@@ -216,6 +218,8 @@ fn show(
     handles::overlay::show(&root, rect, &reads.camera.now, &owned.viewport, uv.active(), &reads.palette);
     inspection::overlay(&root, rect, &reads, &owned.viewport, &inspection);
     view_cube::show(&root, rect, &reads, &mut writes);
+    let read_back = (&*inspection.picture, &*inspection.holes);
+    lens::show(&root, rect, &reads, (&owned.viewport, &reads.pointer), read_back);
     progress::show(&ctx, rect, &reads, &mut writes);
     let beside_legend = inspection::beside_legend(rect, &reads, &inspection);
     notice::show(&ctx, beside_legend, &reads.palette, &mut owned.notices);

@@ -68,8 +68,9 @@ fn figures(ui: &mut Ui, reads: &Reads) {
         (None, gpu) => format!("{} GPU", bytes(gpu)),
     };
     let gpu = figures.gpu_ms.map_or("–".to_owned(), |ms| format!("{ms:.1} ms"));
-    let samples = if figures.resolution < 1.0 && figures.samples <= 1 {
-        format!("{:.0} % resolution", 100.0 * figures.resolution)
+    let samples = if figures.samples <= 1 && (figures.resolution < 1.0 || figures.triangles) {
+        let from = if figures.triangles { "Triangles, " } else { "" };
+        format!("{from}{:.0} % resolution", 100.0 * figures.resolution)
     } else {
         format!("{} / {} samples", figures.samples, figures.samples_wanted)
     };

@@ -5,7 +5,7 @@ use std::time::Duration;
 use bevy::prelude::*;
 use bevy::window::RequestRedraw;
 
-use super::{LeftButton, Picker};
+use super::{LeftButton, Picker, ViewportClick};
 use crate::editor::camera::CameraRequest;
 use crate::editor::object::DerivedFace;
 use crate::editor::selection::{SelectMode, SelectRequest, Selection};
@@ -35,6 +35,7 @@ pub(super) fn press(
     left: Res<LeftButton>,
     viewport: Res<Viewport>,
     time: Res<Time<Real>>,
+    mut clicks: MessageWriter<ViewportClick>,
 ) {
     let now = time.elapsed();
     if picker.click.is_some_and(|click| now.saturating_sub(click.at) > ANSWER_DUE) {
@@ -50,6 +51,7 @@ pub(super) fn press(
         let pixel = viewport.pixel(stroke.down);
         picker.wanted = Some(pixel);
         picker.click = Some(Click { pixel, mode, double, at: now });
+        clicks.write(ViewportClick { position: stroke.down });
     }
 }
 

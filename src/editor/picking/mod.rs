@@ -42,11 +42,27 @@ impl Picker {
         hit.filter(|_| (at.as_ivec2() - pixel.as_ivec2()).abs().max_element() <= 4)
     }
 
+    /// The waiting click met something else than a face.
+    pub fn drop_click(&mut self) {
+        self.click = None;
+    }
+
     /// Whether an answer is still due.
     pub fn is_waiting(&self) -> bool {
         self.wanted.is_some() && self.wanted != self.answer.map(|a| a.0)
     }
 }
+
+/// A click into the viewport, before it is known which face it meets.
+#[derive(Message, Debug, Clone, Copy, PartialEq)]
+pub struct ViewportClick {
+    /// In the window, logical pixels.
+    pub position: Vec2,
+}
+
+/// Systems that look at clicks before faces do.
+#[derive(SystemSet, Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct ClickTargets;
 
 /// Adds picking.
 pub struct PickingPlugin {
@@ -62,6 +78,8 @@ impl Plugin for PickingPlugin {
             .init_resource::<LeftButton>()
             .init_resource::<PressClaims>()
             .add_message::<bevy::window::WindowEvent>()
+            .add_message::<ViewportClick>()
+            .configure_sets(Update, ClickTargets.after(click::press).before(click::resolve))
             .add_systems(
                 Update,
                 (left_button::follow, click::press, click::resolve).chain().in_set(EditorSystems::Tools),

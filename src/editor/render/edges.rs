@@ -14,7 +14,7 @@ use glam::DVec3;
 
 use super::frame::FrameView;
 use super::grid::LineInstance;
-use super::lines::Uniform;
+use super::strokes::{Stroke, StrokeDraw, Uniform, draw_all, ink};
 use crate::editor::inspection::{EdgeLine, EdgeLines};
 use crate::kernel::view::Projection;
 
@@ -23,16 +23,9 @@ const MOST: usize = 400_000;
 /// How much nearer the lines are drawn than they are, in widths of a pixel.
 const NEARER_PX: f64 = 2.5;
 
-/// Pipeline and buffers.
+/// The draw of the edges.
 #[derive(Resource)]
-pub(super) struct Edges {
-    shader: wgpu::ShaderModule,
-    layout: wgpu::BindGroupLayout,
-    group: wgpu::BindGroup,
-    uniform: wgpu::Buffer,
-    instances: Option<wgpu::Buffer>,
-    pipeline: Option<(wgpu::TextureFormat, wgpu::RenderPipeline)>,
-}
+pub(super) struct Edges([StrokeDraw; 1]);
 
 /// The lines of this frame.
 #[derive(Resource, Default)]
@@ -51,13 +44,8 @@ pub(super) fn extract(lines: Extract<Res<EdgeLines>>, mut edges: ResMut<RenderEd
 
 /// Makes what does not depend on the target's format.
 pub(super) fn create(mut commands: Commands, device: Res<RenderDevice>) {
-    let device = device.wgpu_device();
-    let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("edges"),
-        source: wgpu::ShaderSource::Wgsl(include_str!("../../../shaders/pass/lines.wgsl").into()),
-    });
-    let (layout, uniform, group) = super::uniform_group(device, "edges", size_of::<Uniform>());
-    commands.insert_resource(Edges { shader, layout, group, uniform, instances: None, pipeline: None });
+    let compare = wgpu::CompareFunction::GreaterEqual;
+    commands.insert_resource(Edges([StrokeDraw::new(device.wgpu_device(), "edges", Stroke::Lines, compare)]));
 }
 
 /// Draws the edges, if there are any.
@@ -75,49 +63,11 @@ pub(super) fn draw(
         return;
     }
     let (target, depth) = view.into_inner();
-    let (device, edges, format) = (device.wgpu_device(), &mut *edges, target.main_texture_format());
-    if edges.pipeline.as_ref().is_none_or(|(f, _)| *f != format) {
-        let spec = super::PipelineSpec {
-            label: "edges",
-            shader: &edges.shader,
-            layout: &edges.layout,
-            buffers: &[LineInstance::layout()],
-            blend: Some(wgpu::BlendState::ALPHA_BLENDING),
-            depth: Some(wgpu::CompareFunction::GreaterEqual),
-            format,
-        };
-        edges.pipeline = Some((format, super::pipeline(device, spec)));
-    }
-    let bytes: &[u8] = bytemuck::cast_slice(&instances);
-    let buffer = match edges.instances.take() {
-        Some(buffer) if buffer.size() >= bytes.len() as u64 => buffer,
-        _ => device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("edges"),
-            size: (bytes.len() as u64).next_power_of_two(),
-            usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        }),
-    };
-    let buffer = edges.instances.insert(buffer);
     let (_, size) = frame.viewport.physical();
-    queue.write_buffer(&edges.uniform, 0, bytemuck::bytes_of(&Uniform::without_fade(&frame.clip, size)));
-    queue.write_buffer(buffer, 0, bytes);
-    let Some((_, pipeline)) = &edges.pipeline else { return };
-    let mut pass = ctx.command_encoder().begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("edges"),
-        color_attachments: &[Some(super::keep(target.main_texture_view()))],
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: depth.view(),
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store }),
-            stencil_ops: None,
-        }),
-        ..default()
-    });
-    super::confine(&mut pass, &frame, target.main_texture().size());
-    pass.set_pipeline(pipeline);
-    pass.set_bind_group(0, &edges.group, &[]);
-    pass.set_vertex_buffer(0, buffer.slice(..));
-    pass.draw(0..6, 0..instances.len() as u32);
+    let uniform = Uniform::without_fade(&frame.clip, size);
+    let format = target.main_texture_format();
+    edges.0[0].prepare(device.wgpu_device(), &queue, format, &uniform, &instances);
+    draw_all(&edges.0, "edges", (target, depth), &frame, &mut ctx);
 }
 
 /// The stretches relative to the eye.
@@ -144,7 +94,7 @@ fn instances(lines: &[EdgeLine], frame: &FrameView) -> Vec<LineInstance> {
             skip -= stretches;
             continue;
         }
-        let color = super::lines::ink(line.colour);
+        let color = ink(line.colour);
         let width_px = line.width * frame.viewport.scale_factor;
         let placed: Vec<[f32; 3]> = line.points.iter().map(|p| place(*p)).collect();
         made.extend(placed.windows(2).map(|w| LineInstance { start: w[0], end: w[1], color, width_px }));

@@ -4,6 +4,7 @@ use bevy::diagnostic::{DiagnosticPath, DiagnosticsStore};
 use bevy::prelude::*;
 use bevy::render::Extract;
 
+use super::quality::Way;
 use crate::editor::camera::ViewCamera;
 use crate::editor::camera::clip::ClipView;
 use crate::editor::derive::SceneBounds;
@@ -26,8 +27,8 @@ pub(super) struct FrameView {
     pub settings: Settings,
     /// Pixel of the viewport to read back.
     pub pick: Option<UVec2>,
-    /// A new measurement of the cast's GPU time, and the resolution it was made at.
-    pub cast_ms: Option<f32>,
+    /// A new measurement of the GPU time of a picture while something moved, and the resolution it was made at.
+    pub cast_ms: Option<(Way, f32)>,
     pub cast_scale: f32,
     /// A new measurement of the GPU time of a band of the picture at rest.
     pub band_ms: Option<f32>,
@@ -67,7 +68,8 @@ pub(super) fn extract(
 ) {
     *waker = new_waker.clone();
     view.pick = picker.wanted;
-    view.cast_ms = cast_time.whole.fresh;
+    let (rays, triangles) = (cast_time.whole.fresh, cast_time.mesh.fresh);
+    view.cast_ms = triangles.map(|ms| (Way::Triangles, ms)).or(rays.map(|ms| (Way::Rays, ms)));
     view.cast_scale = cast_time.scale;
     view.band_ms = cast_time.band.fresh;
     view.camera = camera.now;
@@ -84,6 +86,7 @@ pub(super) fn extract(
 #[derive(Resource, Debug, Default)]
 pub(super) struct CastTime {
     whole: SpanTime,
+    mesh: SpanTime,
     band: SpanTime,
     scale: f32,
 }
@@ -116,8 +119,9 @@ pub(super) fn read_cast_time(
 ) {
     let time = &mut *time;
     let whole = time.whole.read(&store, super::model::CAST_SPAN);
+    let mesh = time.mesh.read(&store, super::model::MESH_SPAN);
     let band = time.band.read(&store, super::model::BAND_SPAN);
     let mut figures = figures.lock();
     time.scale = figures.resolution;
-    figures.gpu_ms = whole.or(band).or(figures.gpu_ms);
+    figures.gpu_ms = whole.or(mesh).or(band).or(figures.gpu_ms);
 }

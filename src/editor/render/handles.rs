@@ -14,6 +14,7 @@ use glam::DVec3;
 
 use super::frame::FrameView;
 use super::grid::LineInstance;
+use super::strokes::{MarkInstance, Stroke, StrokeDraw, Uniform, draw_all};
 use crate::editor::handles::{HandleDrawing, HandlePicture};
 
 /// Opacity of what is hidden.
@@ -36,90 +37,21 @@ pub(super) fn extract(mut handles: ResMut<ExtractedHandles>, drawing: Extract<Op
     }
 }
 
-/// A mark as the shader gets it.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct MarkInstance {
-    at: [f32; 3],
-    fill: [f32; 4],
-    line: [f32; 4],
-    size_px: f32,
-    round: f32,
-}
-
-impl MarkInstance {
-    fn layout() -> wgpu::VertexBufferLayout<'static> {
-        const ATTRIBUTES: [wgpu::VertexAttribute; 5] = wgpu::vertex_attr_array![
-            0 => Float32x3, 1 => Float32x4, 2 => Float32x4, 3 => Float32, 4 => Float32
-        ];
-        wgpu::VertexBufferLayout {
-            array_stride: size_of::<MarkInstance>() as u64,
-            step_mode: wgpu::VertexStepMode::Instance,
-            attributes: &ATTRIBUTES,
-        }
-    }
-}
-
-/// What both shaders get once.
-#[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct Uniform {
-    clip_from_relative: [[f32; 4]; 4],
-    fade: [f32; 4],
-    size_px: [f32; 2],
-    depth_scale: f32,
-    opacity: f32,
-}
-
-/// A uniform of its own for each of the four draws.
-struct Draw {
-    group: wgpu::BindGroup,
-    uniform: wgpu::Buffer,
-    layout: wgpu::BindGroupLayout,
-}
-
-/// Pipelines and buffers.
+/// Lines hidden, lines in front, marks hidden, marks in front.
 #[derive(Resource)]
-pub(super) struct HandlePass {
-    lines: wgpu::ShaderModule,
-    marks: wgpu::ShaderModule,
-    /// Lines hidden, lines in front, marks hidden, marks in front.
-    draws: [Draw; 4],
-    line_buffer: wgpu::Buffer,
-    mark_buffer: wgpu::Buffer,
-    pipelines: Option<(wgpu::TextureFormat, [wgpu::RenderPipeline; 4])>,
-}
-
-fn instance_buffer(device: &wgpu::Device, bytes: usize) -> wgpu::Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("handles"),
-        size: bytes.next_power_of_two().max(1024) as u64,
-        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
-}
+pub(super) struct HandlePass([StrokeDraw; 4]);
 
 /// Makes what does not depend on the target's format.
 pub(super) fn create(mut commands: Commands, device: Res<RenderDevice>) {
-    let device = device.wgpu_device();
-    let shader = |label, source: &'static str| {
-        device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(label),
-            source: wgpu::ShaderSource::Wgsl(source.into()),
-        })
-    };
-    let draw = |_| {
-        let (layout, uniform, group) = super::uniform_group(device, "handles", size_of::<Uniform>());
-        Draw { group, uniform, layout }
-    };
-    commands.insert_resource(HandlePass {
-        lines: shader("handle lines", include_str!("../../../shaders/pass/lines.wgsl")),
-        marks: shader("handle marks", include_str!("../../../shaders/pass/marks.wgsl")),
-        draws: [0, 1, 2, 3].map(draw),
-        line_buffer: instance_buffer(device, 0),
-        mark_buffer: instance_buffer(device, 0),
-        pipelines: None,
-    });
+    // Depth is reversed: what is behind has less.
+    let (behind, before) = (wgpu::CompareFunction::Less, wgpu::CompareFunction::GreaterEqual);
+    let make = |stroke, compare| StrokeDraw::new(device.wgpu_device(), "handles", stroke, compare);
+    commands.insert_resource(HandlePass([
+        make(Stroke::Lines, behind),
+        make(Stroke::Lines, before),
+        make(Stroke::Marks, behind),
+        make(Stroke::Marks, before),
+    ]));
 }
 
 fn rgba(color: Color32) -> [f32; 4] {
@@ -142,8 +74,6 @@ pub(super) fn draw(
         return;
     }
     let (target, depth) = view.into_inner();
-    let (pass, device) = (&mut *pass, device.wgpu_device());
-    prepare_pipelines(pass, device, target.main_texture_format());
     let eye = frame.camera.eye;
     let pixels = frame.viewport.scale_factor;
     let relative = |p: DVec3| (p - eye).as_vec3().to_array();
@@ -159,75 +89,19 @@ pub(super) fn draw(
         round: f32::from(u8::from(m.round)),
     };
     let marks: Vec<MarkInstance> = picture.marks.iter().map(mark).collect();
-    upload(device, &queue, &mut pass.line_buffer, bytemuck::cast_slice(&lines));
-    upload(device, &queue, &mut pass.mark_buffer, bytemuck::cast_slice(&marks));
     let (_, size) = frame.viewport.physical();
-    for (k, draw) in pass.draws.iter().enumerate() {
+    let (device, format) = (device.wgpu_device(), target.main_texture_format());
+    for (k, draw) in pass.0.iter_mut().enumerate() {
         let uniform = Uniform {
-            clip_from_relative: frame.clip.for_shader().to_cols_array_2d(),
-            // Nothing fades with the distance.
-            fade: [0.0, 0.0, 0.0, 1e30],
-            size_px: [size.x as f32, size.y as f32],
-            depth_scale: if k < 2 { NEARER } else { MUCH_NEARER },
+            depth: if k < 2 { NEARER } else { MUCH_NEARER },
             opacity: if k % 2 == 0 { HIDDEN } else { 1.0 },
+            ..Uniform::without_fade(&frame.clip, size)
         };
-        queue.write_buffer(&draw.uniform, 0, bytemuck::bytes_of(&uniform));
-    }
-    let Some((_, pipelines)) = &pass.pipelines else { return };
-    let mut render = ctx.command_encoder().begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("handles"),
-        color_attachments: &[Some(super::keep(target.main_texture_view()))],
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: depth.view(),
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store }),
-            stencil_ops: None,
-        }),
-        ..default()
-    });
-    super::confine(&mut render, &frame, target.main_texture().size());
-    for (k, (pipeline, draw)) in pipelines.iter().zip(&pass.draws).enumerate() {
-        let (buffer, count) =
-            if k < 2 { (&pass.line_buffer, lines.len()) } else { (&pass.mark_buffer, marks.len()) };
-        if count == 0 {
-            continue;
+        if k < 2 {
+            draw.prepare(device, &queue, format, &uniform, &lines);
+        } else {
+            draw.prepare(device, &queue, format, &uniform, &marks);
         }
-        render.set_pipeline(pipeline);
-        render.set_bind_group(0, &draw.group, &[]);
-        render.set_vertex_buffer(0, buffer.slice(..));
-        render.draw(0..6, 0..count as u32);
     }
-}
-
-fn prepare_pipelines(pass: &mut HandlePass, device: &wgpu::Device, format: wgpu::TextureFormat) {
-    if pass.pipelines.as_ref().is_some_and(|(f, _)| *f == format) {
-        return;
-    }
-    let pipeline = |k: usize| {
-        let layouts = if k < 2 { [LineInstance::layout()] } else { [MarkInstance::layout()] };
-        // Depth is reversed: what is behind has less.
-        let behind = wgpu::CompareFunction::Less;
-        let before = wgpu::CompareFunction::GreaterEqual;
-        super::pipeline(
-            device,
-            super::PipelineSpec {
-                label: "handles",
-                shader: if k < 2 { &pass.lines } else { &pass.marks },
-                layout: &pass.draws[k].layout,
-                buffers: &layouts,
-                blend: Some(wgpu::BlendState::ALPHA_BLENDING),
-                depth: Some(if k % 2 == 0 { behind } else { before }),
-                format,
-            },
-        )
-    };
-    pass.pipelines = Some((format, [0, 1, 2, 3].map(pipeline)));
-}
-
-fn upload(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &mut wgpu::Buffer, bytes: &[u8]) {
-    if buffer.size() < bytes.len() as u64 {
-        *buffer = instance_buffer(device, bytes.len());
-    }
-    if !bytes.is_empty() {
-        queue.write_buffer(buffer, 0, bytes);
-    }
+    draw_all(&pass.0, "handles", (target, depth), &frame, &mut ctx);
 }

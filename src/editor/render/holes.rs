@@ -1,10 +1,11 @@
-//! Pin holes of the picture at rest: the rays are read back, and the inspection proves what shows through.
+//! The picture read back, for the magnifier and for pin holes: the inspection proves what shows through.
 //!
-//! The copy of a complete picture is made once per view, mapped without waiting, and handed to the main world, where
-//! the exact faces and the gaps are.
+//! The copy of a complete picture is made once per view at rest, and of as many pictures as can be read back while
+//! the view moves if that was asked for. It is mapped without waiting, and handed to the main world, where the exact
+//! faces and the gaps are.
 
 use std::sync::atomic::{AtomicU8, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, mpsc};
 
 use bevy::prelude::*;
 use bevy::render::renderer::{RenderContext, RenderDevice, ViewQuery};
@@ -13,24 +14,16 @@ use super::faces::RenderFaces;
 use super::frame::FrameView;
 use super::model::ModelPass;
 use super::ribbons::RenderRibbons;
-use crate::editor::inspection::{Findings, PinHoles};
+use crate::editor::inspection::{Findings, LatestPicture, Picture, PinHoles, are_marked};
 use crate::editor::object::DerivedFace;
 use crate::editor::redraw::Waker;
+use crate::editor::settings::Settings;
 use crate::encoding::{Conceal, View};
-use crate::inspect::{EdgePairs, HoleScene, pin_holes};
+use crate::inspect::{EdgePairs, HoleScene, PinHole, pin_holes};
 use crate::kernel::face::Face;
 use crate::kernel::view::Camera as ViewPoint;
 use crate::reference::cast::Fragment;
 use crate::reference::visibility::VisibilityBuffer;
-
-/// A picture read back.
-pub(super) struct Picture {
-    buffer: VisibilityBuffer,
-    view: View,
-    camera: ViewPoint,
-    /// Faces by slot.
-    faces: Vec<Option<Entity>>,
-}
 
 /// The latest picture, shared by both worlds.
 #[derive(Resource, Clone, Default)]
@@ -85,7 +78,9 @@ pub(super) fn copy(
     mut ctx: RenderContext,
 ) {
     let Some((_, renderer)) = &model.renderer else { return };
-    let wanted = frame.settings.pin_holes && frame.settings.inspection && model.quality.is_full();
+    let settings = &frame.settings;
+    let (marked, full) = (are_marked(settings), model.quality.is_full());
+    let wanted = full && (marked || settings.lens) || marked && settings.holes_moving;
     if !wanted || model.casts == 0 || readback.copies.is_some() || faces.is_waiting() {
         return;
     }
@@ -95,7 +90,7 @@ pub(super) fn copy(
         camera: frame.camera,
         size,
         geometry: faces.geometry,
-        holes: frame.settings.holes,
+        holes: settings.holes,
         ribbons: ribbons.revision,
     };
     if readback.copied == Some(key) {
@@ -154,7 +149,7 @@ pub(super) fn collect(
     if states.contains(&FAILED) {
         readback.copies = None;
     } else if states == [MAPPED; 2] {
-        let picture = read(copies, faces.entities_by_slot());
+        let picture = read(copies, &faces);
         *pictures.0.lock().unwrap_or_else(|e| e.into_inner()) = Some(picture);
         readback.copies = None;
         waker.wake();
@@ -163,7 +158,7 @@ pub(super) fn collect(
     }
 }
 
-fn read(copies: &Copies, faces: &[Option<Entity>]) -> Picture {
+fn read(copies: &Copies, faces: &RenderFaces) -> Picture {
     let [width, height] = copies.size;
     let (words, depths) =
         (copies.words.slice(..).get_mapped_range(), copies.depths.slice(..).get_mapped_range());
@@ -178,32 +173,72 @@ fn read(copies: &Copies, faces: &[Option<Entity>]) -> Picture {
         })
         .collect();
     let buffer = VisibilityBuffer { width, height, fragments, counts: default() };
-    Picture { buffer, view: copies.view, camera: copies.camera, faces: faces.to_vec() }
+    Picture {
+        buffer,
+        view: copies.view,
+        camera: copies.camera,
+        faces: faces.entities_by_slot().to_vec(),
+        headers: faces.packed.faces.data().to_vec(),
+    }
 }
 
-/// In the main world: proves the holes of the latest picture.
+/// The holes of a picture.
+type Proved = (Vec<PinHole>, Arc<Picture>);
+
+/// Holes that are being proved on a thread, and of which picture and edges.
+#[derive(Default)]
+pub(super) struct Proofs {
+    /// Picture and revision of the edges that were last looked at.
+    begun: Option<(Arc<Picture>, u64)>,
+    result: Option<Mutex<mpsc::Receiver<Proved>>>,
+}
+
+/// In the main world: takes the latest picture and has its holes proved, one picture at a time.
 pub(super) fn prove(
     pictures: Res<HolePictures>,
     findings: Res<Findings>,
+    settings: Res<Settings>,
     faces: Query<&DerivedFace>,
-    mut found: ResMut<PinHoles>,
-    mut last: Local<Option<(Picture, Option<u64>)>>,
+    waker: Res<Waker>,
+    (mut latest, mut found): (ResMut<LatestPicture>, ResMut<PinHoles>),
+    mut proofs: Local<Proofs>,
 ) {
     if let Some(picture) = pictures.0.lock().unwrap_or_else(|e| e.into_inner()).take() {
-        *last = Some((picture, None));
+        latest.0 = Some(Arc::new(picture));
     }
-    let (Some((picture, proved)), Some(inspection)) = (last.as_mut(), findings.inspection()) else { return };
+    let arrived = proofs.result.as_ref().map(|r| r.lock().unwrap_or_else(|e| e.into_inner()).try_recv());
+    match arrived {
+        Some(Err(mpsc::TryRecvError::Empty)) => return,
+        Some(Ok((holes, picture))) => {
+            found.set(holes, UVec2::new(picture.buffer.width, picture.buffer.height), picture.camera);
+            proofs.result = None;
+        }
+        Some(Err(mpsc::TryRecvError::Disconnected)) | None => proofs.result = None,
+    }
+    let (Some(picture), Some(inspection)) = (&latest.0, findings.shared_inspection()) else { return };
     // Again when edges were measured meanwhile.
-    if proved.replace(findings.revision) == Some(findings.revision) {
+    let known =
+        |(p, revision): &(Arc<Picture>, u64)| Arc::ptr_eq(p, picture) && *revision == findings.revision;
+    if !are_marked(&settings) || proofs.begun.as_ref().is_some_and(known) {
         return;
     }
-    let pairs = EdgePairs::of(inspection);
+    proofs.begun = Some((Arc::clone(picture), findings.revision));
     let held: Vec<Option<Arc<Face>>> =
         (0..inspection.face_count()).map(|k| faces.get(findings.face(k)?).ok()?.0.face.clone()).collect();
-    let face = |k: usize| held.get(k)?.as_deref();
-    let slot = |k: u32| findings.number((*picture.faces.get(k as usize)?)?);
-    let scene = HoleScene { inspection, pairs: &pairs, face: &face, face_of_slot: &slot };
-    found.holes = pin_holes(&scene, &picture.buffer, &picture.view, &picture.camera);
-    found.size = UVec2::new(picture.buffer.width, picture.buffer.height);
-    found.camera = Some(picture.camera);
+    let numbers: Vec<Option<usize>> = picture.faces.iter().map(|e| findings.number((*e)?)).collect();
+    let (sender, receiver) = mpsc::channel();
+    proofs.result = Some(Mutex::new(receiver));
+    let (picture, waker) = (Arc::clone(picture), waker.clone());
+    rayon::spawn(move || {
+        let face = |k: usize| held.get(k)?.as_deref();
+        let slot = |k: u32| numbers.get(k as usize).copied().flatten();
+        let pairs = EdgePairs::of(&inspection);
+        let scene = HoleScene { inspection: &inspection, pairs: &pairs, face: &face, face_of_slot: &slot };
+        let holes = pin_holes(&scene, &picture.buffer, &picture.view, &picture.camera);
+        // Let go of what the main world may want to change before it hears of it.
+        drop((held, inspection));
+        // Fails only when the program ends.
+        let _ = sender.send((holes, picture));
+        waker.wake();
+    });
 }

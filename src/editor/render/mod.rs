@@ -15,9 +15,11 @@ mod highlight;
 mod holes;
 mod lines;
 mod model;
+mod pace;
 mod pick;
 pub mod quality;
 mod ribbons;
+mod strokes;
 mod triangles;
 
 use bevy::core_pipeline::Core3d;

@@ -10,10 +10,11 @@ use glam::{DVec2, DVec3};
 
 use super::faces::RenderFaces;
 use super::frame::FrameView;
-use super::quality::{Next, Plan, Quality, SAMPLES, STRIPS};
+use super::quality::{Next, Plan, Quality, SAMPLES, STRIPS, Way};
 use super::ribbons::RenderRibbons;
 use super::triangles::RenderTriangles;
 use crate::editor::diagnostics::RenderFigures;
+use crate::editor::inspection::are_marked;
 use crate::editor::redraw::Waker;
 use crate::editor::settings::{DisplayMode, Surfaces};
 use crate::encoding::options::jitter;
@@ -27,7 +28,7 @@ pub(super) const CAST_SPAN: &str = "hairline_cast";
 /// The same for a band of the picture at rest.
 pub(super) const BAND_SPAN: &str = "hairline_band";
 /// The same for triangles in place of rays.
-const MESH_SPAN: &str = "hairline_mesh";
+pub(super) const MESH_SPAN: &str = "hairline_mesh";
 
 /// The renderer and what its picture shows.
 #[derive(Resource)]
@@ -53,6 +54,8 @@ struct CastKey {
     heat: bool,
     untrimmed: bool,
     surfaces: Surfaces,
+    /// Revision of the triangles, where they are what is shown at rest.
+    triangles: Option<u64>,
 }
 
 /// What decides the colour of a hit.
@@ -141,13 +144,30 @@ pub(super) fn draw(
     }
     let (min, size) = frame.viewport.physical();
     let mode = frame.settings.mode;
+    // Holes between triangles are of the triangles: where holes are looked for all the time, there are rays all the time.
+    let for_holes = are_marked(&frame.settings) && frame.settings.holes_moving;
+    let surfaces = if for_holes { Surfaces::Rays } else { frame.settings.surfaces };
+    triangles.forget(faces.changed.drain(..));
+    if let Some((way, ms)) = frame.cast_ms {
+        pass.quality.measure(way, frame.cast_scale, ms, figures.lock().frame_ms);
+    }
+    if let Some(ms) = frame.band_ms {
+        pass.quality.measure_band(ms);
+    }
+    // Made ready at rest too, so that they are there when the next motion starts.
+    let lacking = match pass.quality.wants_triangles(surfaces) {
+        true => triangles.prepare(&faces, &LevelView::new(&frame.camera, size.to_array()), &waker),
+        false => None,
+    };
+    let are_shown = surfaces == Surfaces::Triangles && lacking.is_some();
     let cast = CastKey {
         camera: frame.camera,
         size,
         geometry: faces.geometry,
         heat: mode == DisplayMode::Heat,
         untrimmed: mode == DisplayMode::Untrimmed,
-        surfaces: frame.settings.surfaces,
+        surfaces,
+        triangles: are_shown.then(|| triangles.scene.revision()),
     };
     let holes = if ribbons.is_ready() { frame.settings.holes } else { Conceal::Raw };
     let fat_lines = if holes == Conceal::Raw { 0 } else { ribbons.revision };
@@ -158,20 +178,13 @@ pub(super) fn draw(
         }
         pass.ribbons = Some(fat_lines);
     }
-    triangles.forget(faces.changed.drain(..));
-    if let Some(ms) = frame.cast_ms {
-        pass.quality.measure(frame.cast_scale, ms, figures.lock().frame_ms);
-    }
-    if let Some(ms) = frame.band_ms {
-        pass.quality.measure_band(ms);
-    }
     let now = pass.started.elapsed();
     let (cast_changed, shade_changed) = (pass.cast != Some(cast), pass.shade != Some(shade));
     let (plan, next) = if faces.is_waiting() && !cast_changed && !shade_changed {
         // More is on its way: no use in refining what is there.
         (Plan::Keep, Next::Now)
     } else {
-        pass.quality.plan(now, cast_changed, shade_changed)
+        pass.quality.plan(now, (cast_changed, shade_changed), surfaces, lacking.is_some())
     };
     pass.cast = Some(cast);
     pass.shade = Some(shade);
@@ -179,18 +192,6 @@ pub(super) fn draw(
     let edges = EdgeStyle { visible: shade.edges, width_px: frame.viewport.scale_factor };
     // Edges are a pixel wide: in a coarse picture they would be bars.
     let edges_at = |scale: f32| EdgeStyle { visible: edges.visible && scale > 0.45, ..edges };
-    // Triangles for good, or while rays would have to be coarse.
-    let from_triangles = match plan {
-        Plan::Cast { .. } if frame.settings.surfaces == Surfaces::Triangles => true,
-        Plan::Cast { scale, sample: 0, from: 0, to: STRIPS } => {
-            frame.settings.surfaces == Surfaces::Auto && scale < 1.0
-        }
-        _ => false,
-    };
-    let lacking = match from_triangles {
-        true => triangles.prepare(&faces, &LevelView::new(&frame.camera, size.to_array()), &waker),
-        false => None,
-    };
     let conceal_at = |size: UVec2| match holes {
         Conceal::Raw => None,
         _ => Some(ribbons.scene.concealing_spans(&LevelView::new(&frame.camera, size.to_array()))),
@@ -198,7 +199,7 @@ pub(super) fn draw(
     let recorder = ctx.diagnostic_recorder();
     let name = match plan {
         Plan::Keep | Plan::Shade => None,
-        Plan::Cast { .. } if lacking.is_some() => Some(MESH_SPAN),
+        Plan::Cast { way: Way::Triangles, .. } => Some(MESH_SPAN),
         Plan::Cast { sample: 0, from: 0, to: STRIPS, .. } => Some(CAST_SPAN),
         Plan::Cast { .. } => Some(BAND_SPAN),
     };
@@ -213,9 +214,7 @@ pub(super) fn draw(
             }
             renderer.shade(device, &queue, ctx.command_encoder(), mode_of(mode), edges, true);
         }
-        Plan::Cast { scale, sample, from, to } => {
-            // Triangles are quick enough for every pixel.
-            let scale = if lacking.is_some() { 1.0 } else { scale };
+        Plan::Cast { way, scale, sample, from, to } => {
             let scaled = (size.as_vec2() * scale).ceil().as_uvec2().max(UVec2::ONE);
             let rays = Sample {
                 camera: frame.camera,
@@ -226,17 +225,16 @@ pub(super) fn draw(
             };
             let row = |strip: u32| (u64::from(scaled.y) * u64::from(strip) / u64::from(STRIPS)) as u32;
             let rows = row(from)..row(to);
-            match &lacking {
-                Some(lacking) if to == STRIPS => {
-                    let sent =
-                        renderer.upload_meshes(device, &queue, &mut triangles.scene, &faces.packed, lacking);
+            match way {
+                Way::Triangles => {
+                    let (scene, lacking) = (&mut triangles.scene, lacking.as_deref().unwrap_or_default());
+                    let sent = renderer.upload_meshes(device, &queue, scene, &faces.packed, lacking);
                     if let Err(error) = sent {
                         error!("triangles cannot be drawn: {error}");
                     }
                     renderer.draw_meshes(device, &queue, ctx.command_encoder(), &rays);
                 }
-                Some(_) => {}
-                None => renderer.cast_rows(device, &queue, ctx.command_encoder(), &rays, rows),
+                Way::Rays => renderer.cast_rows(device, &queue, ctx.command_encoder(), &rays, rows),
             }
             if to == STRIPS {
                 if let Some(spans) = conceal_at(scaled) {
@@ -305,5 +303,6 @@ fn report(figures: &RenderFigures, quality: &Quality, faces: &RenderFaces) {
     figures.samples = quality.samples();
     figures.samples_wanted = SAMPLES;
     figures.resolution = quality.scale();
+    figures.triangles = quality.way() == Way::Triangles;
     figures.gpu_bytes = faces.packed.bytes() as u64;
 }

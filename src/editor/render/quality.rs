@@ -1,11 +1,16 @@
-//! When to cast rays, at which resolution, and how many samples: fluid while something moves, exact at rest.
+//! When to draw the model, from what, at which resolution, and how many samples: fluid while something moves, exact at
+//! rest.
 //!
-//! While the view changes each frame is cast at a part of the resolution that follows the measured time;
-//! when it has been still for a moment the picture is cast at full resolution, then refined sample by sample,
-//! then nothing more is drawn. At rest a cast is spread over as many frames as its time demands, band by band,
-//! so that panels answer meanwhile. Pure: time and measurements come in, a [`Plan`] goes out.
+//! While the view changes each frame is drawn from rays where they hold the frame rate at full resolution, else from
+//! triangles where there are any, at the resolution that follows the measured times; when it has been still for a moment
+//! the picture is cast at full resolution, then refined sample by sample, then nothing more is drawn. At rest a cast
+//! is spread over as many frames as its time demands, band by band, so that panels answer meanwhile. Pure: time and
+//! measurements come in, a [`Plan`] goes out.
 
 use std::time::Duration;
+
+use super::pace::Pace;
+use crate::editor::settings::Surfaces;
 
 /// Samples per pixel at rest.
 pub const SAMPLES: u32 = 8;
@@ -22,11 +27,18 @@ const BAND_MS: f32 = 90.0;
 pub const STRIPS: u32 = 64;
 /// Strips of the first band when nothing was measured yet.
 const FIRST_STRIPS: f32 = 8.0;
-/// Resolutions while something moves, as parts of the full one in each direction. Few, because textures are
-/// made anew when it changes.
-const SCALES: [f32; 7] = [1.0, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.140625];
-/// Where a picture starts of which nothing is known, in [`SCALES`].
+/// Where a picture from rays starts of which nothing is known, in [`super::pace::SCALES`].
 const START: usize = 3;
+
+/// What a picture is drawn from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Way {
+    /// Rays at the exact surfaces.
+    #[default]
+    Rays,
+    /// Triangles, trimmed exactly.
+    Triangles,
+}
 
 /// What to do in a frame before the picture is presented.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,8 +47,10 @@ pub enum Plan {
     Keep,
     /// Colour the rays that are there anew.
     Shade,
-    /// Cast one sample.
+    /// Draw one sample, or a part of it.
     Cast {
+        /// From what.
+        way: Way,
         /// Part of the full resolution.
         scale: f32,
         /// Number of the sample, from 0; 0 starts the picture.
@@ -60,28 +74,48 @@ pub enum Next {
 }
 
 /// State of the picture.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Quality {
-    /// Position in [`SCALES`] while something moves.
-    level: usize,
+    rays: Pace,
+    triangles: Pace,
+    /// What the picture was drawn from, and at which resolution.
+    way: Way,
+    scale: f32,
     changed_at: Duration,
     samples: u32,
     full: bool,
-    measured_for: Option<(usize, f32)>,
-    /// Casting time of the whole picture at full resolution as last estimated, milliseconds.
-    full_ms: Option<f32>,
-    /// Time of a frame beside casting, smoothed, milliseconds.
+    /// Time of a frame beside drawing the model, smoothed, milliseconds.
     beside_ms: f32,
     /// Next strip of the cast under way at rest.
     strip: u32,
     /// Strips cast per frame at rest; 0 until they are chosen.
     strips: f32,
+    /// Strips measured of this picture at rest, and their time, milliseconds.
+    banded: (f32, f32),
+}
+
+impl Default for Quality {
+    fn default() -> Self {
+        Self {
+            rays: Pace::of_rays(0),
+            triangles: Pace::of_triangles(),
+            way: Way::Rays,
+            scale: 1.0,
+            changed_at: Duration::ZERO,
+            samples: 0,
+            full: false,
+            beside_ms: 0.0,
+            strip: 0,
+            strips: 0.0,
+            banded: (0.0, 0.0),
+        }
+    }
 }
 
 impl Quality {
     /// For a picture of which nothing is known: moderate resolution first.
     pub fn careful() -> Self {
-        Self { level: START, ..Self::default() }
+        Self { rays: Pace::of_rays(START), ..Self::default() }
     }
 
     /// Samples in the picture.
@@ -89,26 +123,52 @@ impl Quality {
         self.samples
     }
 
-    /// Whether the picture has full resolution.
+    /// Whether the picture has full resolution and is drawn from what it is drawn from at rest.
     pub fn is_full(&self) -> bool {
         self.full
     }
 
     /// Part of the full resolution of the picture.
     pub fn scale(&self) -> f32 {
-        if self.full { 1.0 } else { SCALES[self.level] }
+        if self.full { 1.0 } else { self.scale }
     }
 
-    /// What to do in the frame at `now` when the rays (`cast`) or their colours (`shade`) have changed since
-    /// the last frame.
-    pub fn plan(&mut self, now: Duration, cast: bool, shade: bool) -> (Plan, Next) {
+    /// What the picture was drawn from.
+    pub fn way(&self) -> Way {
+        self.way
+    }
+
+    /// Whether triangles are of use: rays would be coarse while something moves, or are not wanted.
+    pub fn wants_triangles(&self, surfaces: Surfaces) -> bool {
+        match surfaces {
+            Surfaces::Rays => false,
+            Surfaces::Triangles => true,
+            Surfaces::Auto => !self.rays.is_full(),
+        }
+    }
+
+    /// What to do in the frame at `now` when the hits (`cast`) or their colours (`shade`) have changed since
+    /// the last frame. `triangles`: whether there are triangles of everything in sight.
+    pub fn plan(
+        &mut self,
+        now: Duration,
+        (cast, shade): (bool, bool),
+        surfaces: Surfaces,
+        triangles: bool,
+    ) -> (Plan, Next) {
         if cast || self.samples == 0 {
-            self.adapt();
+            let budget = (FRAME_MS - self.beside_ms).clamp(CAST_MS.0, CAST_MS.1);
+            self.rays.adapt(budget);
+            self.triangles.adapt(budget);
+            let from_triangles = triangles && self.wants_triangles(surfaces);
+            self.way = if from_triangles { Way::Triangles } else { Way::Rays };
+            let pace = if from_triangles { &self.triangles } else { &self.rays };
+            self.scale = pace.scale();
             self.changed_at = now;
             self.samples = 1;
-            self.full = self.level == 0;
-            (self.strip, self.strips) = (0, 0.0);
-            let plan = Plan::Cast { scale: SCALES[self.level], sample: 0, from: 0, to: STRIPS };
+            self.full = pace.is_full() && !(from_triangles && surfaces == Surfaces::Auto);
+            (self.strip, self.strips, self.banded) = (0, 0.0, (0.0, 0.0));
+            let plan = Plan::Cast { way: self.way, scale: self.scale, sample: 0, from: 0, to: STRIPS };
             return (plan, Next::After(SETTLE));
         }
         let still = now.saturating_sub(self.changed_at);
@@ -123,112 +183,118 @@ impl Quality {
         if self.full && self.samples >= SAMPLES {
             return (Plan::Keep, Next::Never);
         }
-        (self.cast_band(), if self.full && self.samples >= SAMPLES { Next::Never } else { Next::Now })
+        self.way = if triangles && surfaces == Surfaces::Triangles { Way::Triangles } else { Way::Rays };
+        let plan = match self.way {
+            Way::Rays => self.cast_band(),
+            Way::Triangles => self.next_sample(0, STRIPS),
+        };
+        (plan, if self.full && self.samples >= SAMPLES { Next::Never } else { Next::Now })
     }
 
     /// The next band of the sample under way at rest.
     fn cast_band(&mut self) -> Plan {
         if self.strips == 0.0 {
-            let wanted = self.full_ms.map_or(FIRST_STRIPS, |ms| BAND_MS * STRIPS as f32 / ms.max(1.0));
+            let known = self.rays.full_ms();
+            let wanted = known.map_or(FIRST_STRIPS, |ms| BAND_MS * STRIPS as f32 / ms.max(1.0));
             self.strips = wanted.clamp(1.0, STRIPS as f32);
         }
+        self.next_sample(self.strip, (self.strip + self.strips as u32).min(STRIPS))
+    }
+
+    fn next_sample(&mut self, from: u32, to: u32) -> Plan {
         let sample = if self.full { self.samples } else { 0 };
-        let from = self.strip;
-        let to = (from + self.strips as u32).min(STRIPS);
         self.strip = to % STRIPS;
         if to == STRIPS {
             self.samples = sample + 1;
             self.full = true;
         }
-        Plan::Cast { scale: 1.0, sample, from, to }
+        Plan::Cast { way: self.way, scale: 1.0, sample, from, to }
     }
 
-    /// Takes the measured time of a cast at `scale` while something moved, and of the whole frame, milliseconds.
-    pub fn measure(&mut self, scale: f32, cast_ms: f32, frame_ms: f32) {
-        if let Some(level) = SCALES.iter().position(|s| *s == scale)
-            && cast_ms.is_finite()
-        {
-            self.measured_for = Some((level, cast_ms));
-            self.full_ms = Some(cast_ms / (scale * scale));
-            let beside = (frame_ms - cast_ms).clamp(0.0, FRAME_MS);
-            self.beside_ms += 0.3 * (beside - self.beside_ms);
+    /// Takes the measured time of a picture drawn `way` at `scale`, and of the whole frame, milliseconds.
+    pub fn measure(&mut self, way: Way, scale: f32, ms: f32, frame_ms: f32) {
+        if !ms.is_finite() {
+            return;
         }
+        match way {
+            Way::Rays => self.rays.measure(scale, ms),
+            Way::Triangles => self.triangles.measure(scale, ms),
+        }
+        let beside = (frame_ms - ms).clamp(0.0, FRAME_MS);
+        self.beside_ms += 0.3 * (beside - self.beside_ms);
     }
 
     /// Takes the measured time of a band, milliseconds. Bands get narrower at once and wider by and by, as
     /// strips differ and measurements are a few frames late.
     pub fn measure_band(&mut self, cast_ms: f32) {
-        if cast_ms.is_finite() && self.strips > 0.0 {
-            let factor = (BAND_MS / cast_ms.max(0.1)).clamp(0.5, 1.3);
-            self.strips = (self.strips * factor).clamp(1.0, STRIPS as f32);
+        if !(cast_ms.is_finite() && self.strips > 0.0) {
+            return;
         }
-    }
-
-    /// Moves to the finest resolution that stays within the budget, as far as the last measurement tells.
-    /// Getting coarser is quick; getting finer needs a clear reserve, so that it does not swing.
-    fn adapt(&mut self) {
-        let Some((level, ms)) = self.measured_for.take() else { return };
-        let budget = (FRAME_MS - self.beside_ms).clamp(CAST_MS.0, CAST_MS.1);
-        let full_ms = ms / (SCALES[level] * SCALES[level]);
-        let fits = |scale: f32, budget: f32| full_ms * scale * scale <= budget;
-        let last = SCALES.len() - 1;
-        let wanted = SCALES.iter().position(|s| fits(*s, budget)).unwrap_or(last);
-        if wanted > self.level {
-            self.level = wanted;
-        } else if wanted < self.level {
-            let finer = SCALES.iter().position(|s| fits(*s, 0.7 * budget)).unwrap_or(last);
-            self.level = self.level.min(finer.max(wanted));
+        let (strips, ms) = self.banded;
+        self.banded = (strips + self.strips.floor(), ms + cast_ms);
+        if self.banded.0 >= STRIPS as f32 {
+            // A whole picture's worth: what the next motion has to reckon with.
+            self.rays.measure(1.0, self.banded.1 * STRIPS as f32 / self.banded.0);
+            self.banded = (0.0, 0.0);
         }
+        let factor = (BAND_MS / cast_ms.max(0.1)).clamp(0.5, 1.3);
+        self.strips = (self.strips * factor).clamp(1.0, STRIPS as f32);
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::pace::SCALES;
     use super::*;
 
     const FRAME: Duration = Duration::from_millis(20);
 
     fn whole(scale: f32, sample: u32) -> Plan {
-        Plan::Cast { scale, sample, from: 0, to: STRIPS }
+        Plan::Cast { way: Way::Rays, scale, sample, from: 0, to: STRIPS }
+    }
+
+    /// Without triangles.
+    fn next(quality: &mut Quality, now: Duration, cast: bool, shade: bool) -> (Plan, Next) {
+        quality.plan(now, (cast, shade), Surfaces::Auto, false)
     }
 
     #[test]
     fn rest_refines_to_all_samples_and_then_stops() {
         let mut quality = Quality::default();
         let mut now = Duration::from_secs(1);
-        let (plan, next) = quality.plan(now, true, false);
+        let (plan, when) = next(&mut quality, now, true, false);
         assert_eq!(plan, whole(1.0, 0));
-        assert_eq!(next, Next::After(SETTLE));
-        quality.measure(1.0, 0.9 * BAND_MS, BAND_MS);
+        assert_eq!(when, Next::After(SETTLE));
+        quality.measure(Way::Rays, 1.0, 0.9 * BAND_MS, BAND_MS);
         now += SETTLE;
         for sample in 1..SAMPLES {
-            let (plan, next) = quality.plan(now, false, false);
+            let (plan, when) = next(&mut quality, now, false, false);
             assert_eq!(plan, whole(1.0, sample));
-            assert_eq!(next, if sample + 1 < SAMPLES { Next::Now } else { Next::Never });
+            assert_eq!(when, if sample + 1 < SAMPLES { Next::Now } else { Next::Never });
             now += FRAME;
         }
-        assert_eq!(quality.plan(now, false, false), (Plan::Keep, Next::Never));
+        assert_eq!(next(&mut quality, now, false, false), (Plan::Keep, Next::Never));
     }
 
     #[test]
     fn slow_casts_get_coarser_and_return_to_full_at_rest() {
         let mut quality = Quality::default();
         let mut now = Duration::from_secs(1);
-        quality.plan(now, true, false);
-        quality.measure(1.0, 400.0, 430.0);
+        next(&mut quality, now, true, false);
+        quality.measure(Way::Rays, 1.0, 400.0, 430.0);
         now += FRAME;
-        let (plan, _) = quality.plan(now, true, false);
+        let (plan, _) = next(&mut quality, now, true, false);
         let Plan::Cast { scale, .. } = plan else { panic!("{plan:?}") };
         assert!(scale < 0.35, "{scale}");
         now += FRAME;
-        assert_eq!(quality.plan(now, false, false).0, Plan::Keep);
+        assert_eq!(next(&mut quality, now, false, false).0, Plan::Keep);
         now += SETTLE;
         let mut strip = 0;
         while strip < STRIPS {
             assert!(!quality.is_full());
-            let (plan, next) = quality.plan(now, false, false);
-            let Plan::Cast { scale: 1.0, sample: 0, from, to } = plan else { panic!("{plan:?}") };
-            assert_eq!((from, next), (strip, Next::Now), "strips follow each other");
+            let (plan, when) = next(&mut quality, now, false, false);
+            let Plan::Cast { scale: 1.0, sample: 0, from, to, .. } = plan else { panic!("{plan:?}") };
+            assert_eq!((from, when), (strip, Next::Now), "strips follow each other");
             let ms = 400.0 * (to - from) as f32 / STRIPS as f32;
             assert!(ms < 1.5 * BAND_MS, "{ms}");
             quality.measure_band(ms);
@@ -236,7 +302,7 @@ mod tests {
         }
         assert!(quality.is_full());
         quality.measure_band(3.0 * BAND_MS);
-        let (plan, _) = quality.plan(now, false, false);
+        let (plan, _) = next(&mut quality, now, false, false);
         let Plan::Cast { sample: 1, from: 0, to, .. } = plan else { panic!("{plan:?}") };
         assert!(to < STRIPS / 4, "a band that took too long is followed by a narrower one: {to}");
     }
@@ -244,33 +310,68 @@ mod tests {
     #[test]
     fn a_motion_drops_the_cast_under_way() {
         let strips = FIRST_STRIPS as u32;
-        let band = |k| Plan::Cast { scale: 1.0, sample: 0, from: k * strips, to: (k + 1) * strips };
+        let band =
+            |k| Plan::Cast { way: Way::Rays, scale: 1.0, sample: 0, from: k * strips, to: (k + 1) * strips };
         let mut quality = Quality::careful();
-        quality.plan(FRAME, true, false);
+        next(&mut quality, FRAME, true, false);
         let late = FRAME + SETTLE;
-        assert_eq!(quality.plan(late, false, false).0, band(0));
-        assert_eq!(quality.plan(late, false, false).0, band(1));
-        assert_eq!(quality.plan(late, true, false).0, whole(SCALES[START], 0));
-        assert_eq!(quality.plan(late + SETTLE, false, false).0, band(0));
+        assert_eq!(next(&mut quality, late, false, false).0, band(0));
+        assert_eq!(next(&mut quality, late, false, false).0, band(1));
+        assert_eq!(next(&mut quality, late, true, false).0, whole(SCALES[START], 0));
+        assert_eq!(next(&mut quality, late + SETTLE, false, false).0, band(0));
     }
 
     #[test]
     fn fast_casts_return_to_full_resolution_while_moving() {
-        let mut quality = Quality { level: 5, ..Quality::default() };
-        quality.measure(SCALES[5], 0.05, 8.0);
-        let (plan, _) = quality.plan(FRAME, true, false);
+        let mut quality = Quality { rays: Pace::of_rays(5), ..Quality::default() };
+        quality.measure(Way::Rays, SCALES[5], 0.05, 8.0);
+        let (plan, _) = next(&mut quality, FRAME, true, false);
         assert_eq!(plan, whole(1.0, 0));
     }
 
     #[test]
     fn a_new_colouring_starts_the_samples_again_without_losing_resolution() {
         let mut quality = Quality::default();
-        quality.plan(FRAME, true, false);
-        quality.measure(1.0, 1.0, 16.0);
+        next(&mut quality, FRAME, true, false);
+        quality.measure(Way::Rays, 1.0, 1.0, 16.0);
         let late = FRAME + 2 * SETTLE;
-        while quality.plan(late, false, false).1 != Next::Never {}
-        assert_eq!(quality.plan(late, false, true), (Plan::Shade, Next::Now));
+        while next(&mut quality, late, false, false).1 != Next::Never {}
+        assert_eq!(next(&mut quality, late, false, true), (Plan::Shade, Next::Now));
         assert!(quality.is_full());
-        assert_eq!(quality.plan(late, false, false).0, whole(1.0, 1));
+        assert_eq!(next(&mut quality, late, false, false).0, whole(1.0, 1));
+    }
+
+    #[test]
+    fn triangles_take_over_while_rays_would_be_coarse_and_rays_come_back_at_rest() {
+        let mut quality = Quality::careful();
+        let mut now = Duration::from_secs(1);
+        let auto = |quality: &mut Quality, now, cast| quality.plan(now, (cast, false), Surfaces::Auto, true);
+        let triangles = |scale| Plan::Cast { way: Way::Triangles, scale, sample: 0, from: 0, to: STRIPS };
+        assert_eq!(auto(&mut quality, now, true).0, triangles(1.0));
+        assert!(!quality.is_full(), "not what is shown at rest");
+        quality.measure(Way::Triangles, 1.0, 70.0, 80.0);
+        now += FRAME;
+        assert_eq!(auto(&mut quality, now, true).0, triangles(0.5), "coarser where triangles are slow too");
+        now += SETTLE;
+        let mut bands = 0;
+        while !quality.is_full() {
+            let (plan, next) = auto(&mut quality, now, false);
+            let Plan::Cast { way: Way::Rays, scale: 1.0, sample: 0, from, to } = plan else {
+                panic!("{plan:?}")
+            };
+            assert_eq!(next, Next::Now);
+            quality.measure_band(3.0 * (to - from) as f32);
+            bands += 1;
+        }
+        assert!(bands > 1);
+        // What was measured at rest tells that rays are too slow, or quick enough.
+        assert!(matches!(auto(&mut quality, now, true).0, Plan::Cast { way: Way::Triangles, .. }));
+        quality.measure(Way::Rays, 1.0, 5.0, 10.0);
+        assert_eq!(auto(&mut quality, now, true).0, whole(1.0, 0));
+        // When told to, they stay.
+        let always = quality.plan(now, (true, false), Surfaces::Triangles, true).0;
+        assert!(matches!(always, Plan::Cast { way: Way::Triangles, .. }));
+        let rest = quality.plan(now + SETTLE, (false, false), Surfaces::Triangles, true).0;
+        assert!(matches!(rest, Plan::Cast { way: Way::Triangles, scale: 1.0, .. }), "{rest:?}");
     }
 }

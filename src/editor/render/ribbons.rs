@@ -45,7 +45,7 @@ pub(super) fn extract(
         return;
     };
     let face = |number: usize| faces.packed_face(findings.face(number)?);
-    ribbons.scene = inspect::ribbons(inspection, &face).0;
+    ribbons.scene = inspect::ribbons(inspection, &face);
     ribbons.made_of = Some(key);
     ribbons.revision += 1;
 }

@@ -8,7 +8,7 @@ use super::edit_action::EditAction;
 use super::key::Shortcut;
 use super::situation::Situation;
 use super::{display_table, edit_table, file_table, view_table};
-use crate::editor::settings::{DisplayMode, Handles, Settings, Surfaces};
+use crate::editor::settings::{DisplayMode, Handles, HoleMarks, Settings, Surfaces};
 use crate::encoding::Conceal;
 use crate::kernel::view::StandardView;
 
@@ -49,6 +49,10 @@ pub enum Action {
     ToggleProblems,
     ToggleInspection,
     TogglePinHoles,
+    HoleMarks(HoleMarks),
+    ToggleMovingHoles,
+    ToggleLens,
+    LensZoom,
     NextDefect,
     PreviousDefect,
     CloseGap,

@@ -6,11 +6,14 @@ use super::command::Menu::{Display, Help, Inspect};
 use super::command::{Action, Command, command};
 use super::key::Shortcut;
 use super::situation::Situation;
-use crate::editor::settings::{DisplayMode, Surfaces};
+use crate::editor::settings::{DisplayMode, HoleMarks, Surfaces};
 use crate::encoding::Conceal;
 
 const fn with_inspection(s: &Situation) -> bool {
     s.inspection
+}
+const fn with_model(s: &Situation) -> bool {
+    s.model
 }
 const fn with_gap(s: &Situation) -> bool {
     s.gap
@@ -121,6 +124,36 @@ pub(super) const ROWS: &[Command] = &[
     )
     .checked(|s| s.pin_holes)
     .when(with_inspection),
+    command(Inspect, Action::HoleMarks(HoleMarks::Rings), "inspect.rings", "Marks are rings", &[])
+        .checked(|s| s.hole_marks == HoleMarks::Rings)
+        .when(with_inspection),
+    command(Inspect, Action::HoleMarks(HoleMarks::Blinking), "inspect.blinking", "Marks blink", &[])
+        .checked(|s| s.hole_marks == HoleMarks::Blinking)
+        .when(with_inspection),
+    command(Inspect, Action::HoleMarks(HoleMarks::Dilated), "inspect.dilated", "Marks cover the holes", &[])
+        .checked(|s| s.hole_marks == HoleMarks::Dilated)
+        .when(with_inspection),
+    command(
+        Inspect,
+        Action::ToggleMovingHoles,
+        "inspect.moving",
+        "Find pin holes while moving",
+        &[code(KeyCode::F10).ctrl()],
+    )
+    .checked(|s| s.holes_moving)
+    .when(with_inspection),
+    command(Inspect, Action::ToggleLens, "inspect.lens", "Magnifier", &[code(KeyCode::F4), key('o')])
+        .separated()
+        .checked(|s| s.lens)
+        .when(with_model),
+    command(
+        Inspect,
+        Action::LensZoom,
+        "inspect.zoom",
+        "Magnifier: 8, 16 or 4 times",
+        &[code(KeyCode::F4).shift()],
+    )
+    .when(with_model),
     command(Inspect, Action::NextDefect, "inspect.next", "Next defect", &[code(KeyCode::F11), key('.')])
         .separated()
         .when(with_inspection),

@@ -1,55 +1,78 @@
-//! Marks of the pin holes in the picture at rest, and how many there are.
+//! Marks of the pin holes in the picture, and how many there are.
 
 use bevy_egui::egui::{Align2, Color32, FontId, Painter, Rect, Stroke, pos2, vec2};
 
 use crate::editor::inspection::PinHoles;
 use crate::editor::panels::Reads;
 use crate::editor::panels::format::plural;
+use crate::editor::settings::HoleMarks;
+use crate::editor::theme::size;
+use crate::editor::viewport::Viewport;
 use crate::inspect::HoleClass;
 
-/// Radius of a mark, points.
+/// Radius of a ring, points.
 const RADIUS: f32 = 5.0;
+/// Side of a square over a hole, points.
+const DILATED: f32 = 5.0;
 /// Marks drawn at most: more would cover the picture.
-const MOST: usize = 2_000;
+const MOST: usize = 4_000;
 
-/// Draws them, while the view is the one that they were found in.
-pub(super) fn show(painter: &Painter, rect: Rect, reads: &Reads, found: &PinHoles) {
-    let Some(holes) = found.of(&reads.camera.now) else { return };
-    let scale = vec2(rect.width() / found.size.x.max(1) as f32, rect.height() / found.size.y.max(1) as f32);
+/// The classes with their names, as they are counted.
+pub(super) const CLASSES: [(HoleClass, &str, &str); 3] = [
+    (HoleClass::Gap, "gap", "The sides stand apart"),
+    (HoleClass::Overlap, "overlap", "The sides overlap, one above the other, and one looks in between"),
+    (HoleClass::Solver, "our own", "The exact surfaces have no hole there: our own solver failed"),
+];
+
+/// Draws them.
+pub(super) fn show(painter: &Painter, rect: Rect, reads: &Reads, viewport: &Viewport, found: &PinHoles) {
+    let moving = reads.settings.holes_moving;
+    let known = found.of(&reads.camera.now).is_some() || (moving && found.camera.is_some());
+    if !known {
+        return;
+    }
+    let style = reads.settings.hole_marks;
     let mut last: Option<[u32; 2]> = None;
-    for hole in holes.iter().take(MOST) {
-        let [x, y] = hole.pixel;
-        // One ring for neighbours in a row.
-        if last.is_some_and(|[lx, ly]| ly == y && lx + 1 == x) {
-            last = Some(hole.pixel);
+    let places = found.places(&reads.camera.now, viewport, moving);
+    for (hole, at) in places.take(if found.lit { MOST } else { 0 }) {
+        let (at, colour) = (pos2(at.x, at.y), colour(hole.class));
+        if style == HoleMarks::Dilated {
+            let square = Rect::from_center_size(at, vec2(DILATED, DILATED));
+            painter.rect_filled(square, 0, colour);
             continue;
         }
+        // One ring for neighbours in a row.
+        let [x, y] = hole.pixel;
+        let goes_on = last.is_some_and(|[lx, ly]| ly == y && lx + 1 == x);
         last = Some(hole.pixel);
-        let at = pos2(rect.min.x + (x as f32 + 0.5) * scale.x, rect.min.y + (y as f32 + 0.5) * scale.y);
-        painter.circle_stroke(at, RADIUS, Stroke::new(1.5, colour(hole.class)));
+        if !goes_on {
+            painter.circle_stroke(at, RADIUS, Stroke::new(1.5, colour));
+        }
     }
-    let parts: Vec<String> =
-        [(HoleClass::Gap, "gap"), (HoleClass::Overlap, "overlap"), (HoleClass::Solver, "solver")]
-            .into_iter()
-            .map(|(class, name)| (found.count(class), name))
-            .filter(|(count, _)| *count > 0)
-            .map(|(count, name)| format!("{count} {name}"))
-            .collect();
-    let text = match parts.as_slice() {
-        [] => "No pin holes".to_owned(),
-        parts => format!("{}: {}", plural(holes.len(), "pin hole"), parts.join(", ")),
-    };
-    let font = FontId::proportional(12.0);
-    painter.text(
-        rect.center_bottom() - vec2(0.0, 10.0),
-        Align2::CENTER_BOTTOM,
-        text,
-        font,
-        reads.palette.text,
-    );
+    let font = FontId::proportional(size::BODY);
+    let galley = painter.layout_no_wrap(summary(found), font, reads.palette.strong);
+    let label = Align2::CENTER_BOTTOM
+        .anchor_size(rect.center_bottom() - vec2(0.0, 10.0), galley.size() + vec2(16.0, 8.0));
+    painter.rect_filled(label, 4, reads.palette.raised.gamma_multiply(0.9));
+    painter.galley(label.center() - galley.size() / 2.0, galley, reads.palette.strong);
 }
 
-fn colour(class: HoleClass) -> Color32 {
+/// How many there are, by class.
+pub(super) fn summary(found: &PinHoles) -> String {
+    let parts: Vec<String> = CLASSES
+        .into_iter()
+        .map(|(class, name, _)| (found.count(class), name))
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, name)| format!("{count} {name}"))
+        .collect();
+    match parts.as_slice() {
+        [] => "No pin holes".to_owned(),
+        parts => format!("{}: {}", plural(found.holes.len(), "pin hole"), parts.join(", ")),
+    }
+}
+
+/// The colour of a class.
+pub(in crate::editor::panels) fn colour(class: HoleClass) -> Color32 {
     match class {
         HoleClass::Gap => Color32::from_rgb(255, 72, 72),
         HoleClass::Overlap => Color32::from_rgb(255, 190, 60),

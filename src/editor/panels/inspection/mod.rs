@@ -5,6 +5,7 @@ mod holes;
 mod legend;
 mod measure;
 mod mend;
+mod pinholes;
 mod table;
 
 use bevy::ecs::system::SystemParam;
@@ -16,23 +17,27 @@ use super::format::{count, plural};
 use super::icon::{self, Icon};
 use super::{Reads, Writes};
 use crate::editor::inspection::{
-    Chosen, CloseGap, Findings, InspectRequest, InspectionChoices, MendChoices, MendOutcome, PinHoles, Probe,
-    Progress, Rows, ramp,
+    Chosen, CloseGap, Findings, InspectRequest, InspectionChoices, LatestPicture, MendChoices, MendOutcome,
+    PinHoles, Probe, Progress, Rows, ramp,
 };
 use crate::editor::theme::Palette;
 use crate::editor::tools::{Action, CommandRequest};
 use crate::editor::viewport::Viewport;
 use crate::inspect::Length;
 use crate::inspect::statistics::Tally;
+pub(super) use holes::colour as hole_colour;
 
 /// What the panel reads and writes of the inspection.
 #[derive(SystemParam)]
-pub(super) struct InspectionState<'w> {
+pub(super) struct InspectionState<'w, 's> {
     findings: Res<'w, Findings>,
     rows: Res<'w, Rows>,
     chosen: Res<'w, Chosen>,
     probe: Res<'w, Probe>,
-    holes: Res<'w, PinHoles>,
+    pub holes: Res<'w, PinHoles>,
+    pub picture: Res<'w, LatestPicture>,
+    /// Whether pin holes are listed in place of edges.
+    list_holes: Local<'s, bool>,
     choices: ResMut<'w, InspectionChoices>,
     mend: ResMut<'w, MendChoices>,
     outcome: Res<'w, MendOutcome>,
@@ -69,7 +74,10 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes, state: &mu
                     ui.add_space(10.0);
                     ui.vertical(|ui| {
                         mend::show(ui, reads, writes, state);
-                        table::show(ui, reads, writes, state);
+                        match *state.list_holes {
+                            true => pinholes::show(ui, reads, writes, state),
+                            false => table::show(ui, reads, writes, state),
+                        }
                     });
                 });
             }
@@ -87,7 +95,7 @@ pub(super) fn overlay(root: &Ui, rect: Rect, reads: &Reads, viewport: &Viewport,
         legend::show(&painter, rect, &reads.palette);
     }
     if reads.settings.pin_holes {
-        holes::show(&painter, rect, reads, &state.holes);
+        holes::show(&painter, rect, reads, viewport, &state.holes);
     }
     measure::show(&painter, reads, viewport, state);
 }
@@ -133,6 +141,7 @@ fn head(ui: &mut Ui, reads: &Reads, writes: &mut Writes, state: &mut InspectionS
         let search = egui::TextEdit::singleline(&mut filter.text).hint_text("Face").desired_width(54.0);
         changed |= ui.add(search).on_hover_text("Only edges of the face with this number").changed();
         changed |= toggle(ui, &reads.palette, &mut state.choices.colours, "Colours");
+        changed |= toggle(ui, &reads.palette, &mut state.list_holes, "Pin holes");
         if changed {
             // Rows are made in `Update`, before the next time panels are built.
             writes.redraw.write(RequestRedraw);
