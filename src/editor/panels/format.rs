@@ -54,7 +54,7 @@ pub(super) fn bytes(n: u64) -> String {
 }
 
 /// `1 face`, `2 faces`.
-pub(super) fn plural(n: usize, one: &str) -> String {
+pub(in crate::editor) fn plural(n: usize, one: &str) -> String {
     if n == 1 { format!("1 {one}") } else { format!("{} {one}s", count(n)) }
 }
 

@@ -5,7 +5,7 @@
 
 mod about;
 mod command_palette;
-mod format;
+pub(super) mod format;
 mod help;
 mod history;
 pub(super) mod icon;

@@ -29,8 +29,12 @@ pub(super) fn show(ctx: &egui::Context, p: &Palette, prompt: &mut Prompt, writes
             let edit =
                 egui::TextEdit::singleline(value).margin(egui::Margin::symmetric(8, 5)).desired_width(width);
             let response = ui.add(edit);
-            if fresh && index == 0 {
+            let first = fresh && index == 0;
+            if first {
                 response.request_focus();
+            }
+            // Entered by key: what is typed replaces what is there.
+            if first || (response.gained_focus() && !response.is_pointer_button_down_on()) {
                 let all = egui::text::CCursorRange::two(
                     egui::text::CCursor::new(0),
                     egui::text::CCursor::new(value.chars().count()),

@@ -53,7 +53,8 @@ pub(super) fn press(
         if !press.state.is_pressed() || press.repeat || typing {
             continue;
         }
-        if pointer.drags_handle {
+        // X, Y and Z are for the drag; undo and the like end it.
+        if pointer.drags_handle && !hands.held.ctrl {
             continue;
         }
         // Over the uv panel its own keys come first; the panel follows them itself.

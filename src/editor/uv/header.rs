@@ -8,6 +8,7 @@ use super::gesture::Gesture;
 use super::panel::Overlay;
 use super::show::{UvParams, title};
 use super::tool::Tool;
+use crate::editor::panels::format::plural;
 use crate::editor::panels::icon::{self, Icon};
 use crate::editor::tools::Action;
 
@@ -22,7 +23,7 @@ pub(super) fn show(ui: &mut Ui, params: &mut UvParams) {
             ui.add(Label::new(title(name, &palette)));
             if let Some(face) = &params.active.face {
                 let curves: usize = face.loops.iter().map(|l| l.curves.len()).sum();
-                let text = format!("{} loops, {curves} curves", face.loops.len());
+                let text = format!("{}, {}", plural(face.loops.len(), "loop"), plural(curves, "curve"));
                 if ui.available_width() > 520.0 {
                     ui.add_space(6.0);
                     ui.label(RichText::new(text).small().color(palette.weak));

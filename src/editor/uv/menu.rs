@@ -9,6 +9,7 @@ use super::show::{UvParams, describe};
 use crate::editor::editing::EditRequest;
 use crate::editor::elements::{Element, FaceInHand};
 use crate::editor::selection::SelectMode;
+use crate::editor::tools::{Action, EditAction};
 use crate::kernel::trim::UvRect;
 use crate::scene::operation::{CurveId, Operation, Transform};
 use crate::scene::records::{LoopRecord, LoopRole};
@@ -26,7 +27,8 @@ pub(super) fn show(ui: &mut Ui, canvas: &egui::Response, face: &FaceInHand, para
     }
     let place = params.panel.menu_place;
     let popup = egui::Popup::new(id, ui.ctx().clone(), place, ui.layer_id());
-    popup.kind(egui::PopupKind::Menu).open_memory(None).show(|ui| {
+    let popup = popup.kind(egui::PopupKind::Menu).style(egui::containers::menu::menu_style);
+    popup.open_memory(None).show(|ui| {
         ui.set_width(WIDTH_PX);
         ui.spacing_mut().item_spacing.y = 0.0;
         items(ui, face, params);
@@ -62,7 +64,7 @@ fn items(ui: &mut Ui, face: &FaceInHand, params: &mut UvParams) {
         let all = (0..face.loops.len()).map(|trim_loop| Element::Loop { trim_loop }).collect();
         params.select(all, SelectMode::Replace);
     }
-    if item(ui, "Untrim", "", !face.loops.is_empty()) {
+    if item(ui, "Untrim", &key(EditAction::Untrim), !face.loops.is_empty()) {
         params.edit(EditRequest::Perform(Operation::Untrim { face: face.id }));
     }
     if item(ui, "Fit", "F", true) {
@@ -115,11 +117,11 @@ fn of_curve(ui: &mut Ui, face: &FaceInHand, id: CurveId, hit: UvHit, params: &mu
             }));
         }
     }
-    if item(ui, "Elevate degree", "", true) {
+    if item(ui, "Elevate degree", &key(EditAction::Elevate), true) {
         params.edit(EditRequest::Perform(Operation::ElevateDegree { face: face_id, curve: id, by: 1 }));
     }
     let several = face.loops.get(id.trim_loop).is_some_and(|l| l.curves.len() > 1);
-    if item(ui, "Join with next curve", "", several) {
+    if item(ui, "Join with next curve", &key(EditAction::Join), several) {
         params.edit(EditRequest::Perform(Operation::JoinCurves {
             face: face_id,
             curve: id,
@@ -137,14 +139,14 @@ fn of_curve(ui: &mut Ui, face: &FaceInHand, id: CurveId, hit: UvHit, params: &mu
 fn of_loops(ui: &mut Ui, face: &FaceInHand, loops: &[usize], params: &mut UvParams) {
     let (face_id, all) = (face.id, loops.to_vec());
     let copied = || loops.iter().filter_map(|l| face.loops.get(*l)).map(|l| (**l).clone()).collect();
-    if item(ui, "Cut", "", true) {
+    if item(ui, "Cut", &key(EditAction::Cut), true) {
         params.clipboard.0 = copied();
         params.edit(EditRequest::Perform(Operation::DeleteLoops { face: face_id, loops: all.clone() }));
     }
-    if item(ui, "Copy", "", true) {
+    if item(ui, "Copy", &key(EditAction::Copy), true) {
         params.clipboard.0 = copied();
     }
-    if item(ui, "Duplicate", "", true) {
+    if item(ui, "Duplicate", &key(EditAction::Duplicate), true) {
         // A little aside, so that the copy can be seen.
         let by = params.panel.view.delta_uv(DVec2::new(16.0, 16.0));
         params.edit(EditRequest::Perform(Operation::DuplicateLoops {
@@ -153,23 +155,29 @@ fn of_loops(ui: &mut Ui, face: &FaceInHand, loops: &[usize], params: &mut UvPara
             by,
         }));
     }
-    for (label, along) in [("Mirror left and right", DVec2::Y), ("Mirror up and down", DVec2::X)] {
-        if item(ui, label, "", true) {
+    for (label, action, along) in [
+        ("Mirror left and right", EditAction::MirrorU, DVec2::Y),
+        ("Mirror up and down", EditAction::MirrorV, DVec2::X),
+    ] {
+        if item(ui, label, &key(action), true) {
             let transform = Transform::Mirror { along, about: None };
             let loops = all.clone();
             let operation = Operation::TransformLoops { face: face_id, loops, transform, beyond: false };
             params.edit(EditRequest::Perform(operation));
         }
     }
-    if item(ui, "Reverse", "", true) {
+    if item(ui, "Reverse", &key(EditAction::ReverseLoop), true) {
         params.edit(EditRequest::Perform(Operation::ReverseLoops { face: face_id, loops: all.clone() }));
     }
-    if item(ui, "Close gaps", "", true) {
+    if item(ui, "Close loop", &key(EditAction::CloseLoop), true) {
         params.edit(EditRequest::Perform(Operation::CloseLoops { face: face_id, loops: all.clone() }));
     }
     let holes = loops.iter().all(|l| face.loops.get(*l).is_some_and(|l| l.role == LoopRole::Inner));
-    let (label, role) = if holes { ("Make outer", LoopRole::Outer) } else { ("Make hole", LoopRole::Inner) };
-    if item(ui, label, "", true) {
+    let (label, action, role) = match holes {
+        true => ("Make island or outer loop", EditAction::MakeOuter, LoopRole::Outer),
+        false => ("Make hole", EditAction::MakeHole, LoopRole::Inner),
+    };
+    if item(ui, label, &key(action), true) {
         params.edit(EditRequest::Perform(Operation::SetRole { face: face_id, loops: all.clone(), role }));
     }
     if item(ui, "Delete", "Del", true) {
@@ -182,6 +190,12 @@ fn head(ui: &mut Ui, title: &str, params: &UvParams) {
         ui.separator();
     }
     ui.label(RichText::new(title).small().color(params.palette.weak));
+}
+
+/// The key of the same command outside the panel.
+fn key(action: EditAction) -> String {
+    let keys = Action::Edit(action).command().map_or(&[][..], |c| c.keys);
+    keys.first().map(ToString::to_string).unwrap_or_default()
 }
 
 /// One entry. Whether it was clicked.
