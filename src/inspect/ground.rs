@@ -88,15 +88,30 @@ impl Ground {
         let centre = 0.5 * (self.rect.min + self.rect.max);
         [0.0, 1e-6, 1e-3].into_iter().find_map(|step| {
             let beside = at + (centre - at) * step;
-            let t = self.surface.tangents(beside.x, beside.y);
-            let normal = t.du.cross(t.dv);
-            // Two derivatives of very different length are fine, parallel ones are not.
-            (normal.length() > 1e-9 * t.du.length() * t.dv.length()).then(|| normal.try_normalize()).flatten()
+            normal_of(&self.surface.tangents(beside.x, beside.y))
         })
+    }
+
+    /// Point, first derivatives and unit normal at native parameters.
+    pub fn frame(&self, uv: DVec2) -> (Tangents, Option<DVec3>) {
+        let (at, moves) = self.inside(uv);
+        let mut tangents = self.surface.tangents(at.x, at.y);
+        let normal = normal_of(&tangents).or_else(|| self.normal(uv));
+        tangents.du *= moves.x;
+        tangents.dv *= moves.y;
+        (tangents, normal)
     }
 
     /// Box of a few points around.
     pub fn bounds(&self) -> Bounds {
         self.surface.bounds()
     }
+}
+
+/// `du x dv`, unit.
+fn normal_of(t: &Tangents) -> Option<DVec3> {
+    let normal = t.du.cross(t.dv);
+    // Two derivatives of very different length are fine, parallel ones are not.
+    let limit = 1e-18 * t.du.length_squared() * t.dv.length_squared();
+    (normal.length_squared() > limit).then(|| normal.try_normalize()).flatten()
 }

@@ -16,7 +16,7 @@ use super::lifted::LiftedCurve;
 use super::measure::{Stretch, gap};
 use super::overlap::{Overlap, overlaps};
 use super::scale::Scale;
-use super::whole::Groups;
+use super::whole::{Groups, marks};
 use crate::kernel::view::Bounds;
 use crate::scene::records::FaceRecord;
 
@@ -214,9 +214,12 @@ impl Inspection {
     fn group(&mut self, ids: &[u32]) {
         let mut ids = ids.to_vec();
         ids.sort_by_key(|id| self.address(*id));
-        for id in ids {
-            if let Some(curve) = self.curves[id as usize].as_deref().filter(|c| !c.is_degenerate()) {
-                self.groups.insert(id, curve);
+        let curve = |id: u32| self.at(id).filter(|c| !c.is_degenerate());
+        let found: Vec<_> =
+            ids.par_iter().with_min_len(256).map(|id| Some((*id, marks(curve(*id)?)))).collect();
+        for (id, marks) in found.into_iter().flatten() {
+            if let Some(curve) = self.curves[id as usize].as_deref() {
+                self.groups.insert(id, curve, marks);
             }
         }
     }

@@ -160,10 +160,9 @@ impl LiftedCurve {
         let middle = 0.5 * (a + b);
         [0.0, 1e-6, 1e-3].into_iter().find_map(|step| {
             let (uv, d) = self.uv(t + (middle - t) * step);
-            let surface = self.ground.tangents(uv);
+            let (surface, normal) = self.ground.frame(uv);
             let along = (surface.du * d.x + surface.dv * d.y).try_normalize()?;
-            let normal = self.ground.normal(uv)?;
-            let left = normal.cross(along);
+            let left = normal?.cross(along);
             Some(if self.material_left { left } else { -left })
         })
     }
@@ -183,12 +182,28 @@ impl LiftedCurve {
         if length >= b.length {
             return b.t;
         }
-        let (mut low, mut high) = (a.t, b.t);
+        // False position; an end that stays counts half the next time (Illinois).
+        let (mut low, mut high) = ((a.t, a.length - length), (b.t, b.length - length));
+        let mut rose = None;
         for _ in 0..50 {
-            let t = 0.5 * (low + high);
-            if hermite_length(a, b, t) < length { low = t } else { high = t }
+            let t = low.0 + (high.0 - low.0) * (low.1 / (low.1 - high.1));
+            let miss = hermite_length(a, b, t) - length;
+            if miss == 0.0 || t <= low.0 || t >= high.0 {
+                return t.clamp(low.0, high.0);
+            }
+            let rises = miss < 0.0;
+            let stays = if rises { &mut high } else { &mut low };
+            if rose == Some(rises) {
+                stays.1 *= 0.5;
+            }
+            if rises {
+                low = (t, miss)
+            } else {
+                high = (t, miss)
+            }
+            rose = Some(rises);
         }
-        0.5 * (low + high)
+        0.5 * (low.0 + high.0)
     }
 
     /// The two neighbouring nodes of which the first is the last that `before` holds for.

@@ -93,7 +93,7 @@ pub fn gap(a: Stretch<'_>, b: Stretch<'_>, forward: bool, sides: [usize; 2]) -> 
         across,
         step,
         along,
-        angle: angle(a, b),
+        angle: angle(a, b, forward, 2.0 * best.distance + there.noise),
     }
 }
 
@@ -104,7 +104,11 @@ impl<'a> Sweep<'a> {
         let (start, end) = a.range;
         let ends = if forward { [b.range.0, b.range.1] } else { [b.range.1, b.range.0] };
         let at_end = |t: f64, guess: f64| {
-            let (x, y) = (probe(a.curve, t, b, Some(guess)), probe(a.curve, t, b, None));
+            let x = probe(a.curve, t, b, Some(guess));
+            if x.distance <= noise {
+                return x;
+            }
+            let y = probe(a.curve, t, b, None);
             if x.distance <= y.distance { x } else { y }
         };
         let (first, last) = (at_end(start, ends[0]), at_end(end, ends[1]));
@@ -291,12 +295,19 @@ fn parts(a: &LiftedCurve, p: &CurvePoint, b: &LiftedCurve, q: &CurvePoint, noise
     Parts { sense, across, step, along }
 }
 
-/// Largest angle between the tangent planes at a few points along.
-fn angle(a: Stretch<'_>, b: Stretch<'_>) -> f64 {
+/// Largest angle between the tangent planes at a few points along, `usual` being a distance between
+/// the sides that is no surprise.
+fn angle(a: Stretch<'_>, b: Stretch<'_>, forward: bool, usual: f64) -> f64 {
     let at = |s: f64| {
         let t = a.range.0 + (a.range.1 - a.range.0) * s;
-        let foot = nearest(b.curve, a.curve.at(t).point, b.range).at.t;
-        let (x, y) = (a.curve.inward(t)?, b.curve.inward(foot)?);
+        let across = if forward { s } else { 1.0 - s };
+        let guess = b.range.0 + (b.range.1 - b.range.0) * across;
+        let point = a.curve.at(t).point;
+        let mut foot = nearest_from(b.curve, point, b.range, guess);
+        if foot.distance > usual {
+            foot = nearest(b.curve, point, b.range);
+        }
+        let (x, y) = (a.curve.inward(t)?, b.curve.inward(foot.at.t)?);
         Some(2.0 * (x + y).length().atan2((x - y).length()))
     };
     [0.02, 0.26, 0.5, 0.74, 0.98].into_iter().filter_map(at).fold(0.0, f64::max)

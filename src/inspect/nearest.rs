@@ -9,6 +9,8 @@ use super::lifted::{CurvePoint, LiftedCurve};
 
 /// Steps at most; secant steps converge in three to six.
 const STEPS: usize = 24;
+/// An offset along the curve below this part of the distance changes the distance by less than rounding.
+const SIDEWAYS: f64 = 1e-6;
 
 /// A nearest point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,10 +48,13 @@ pub fn nearest_from(curve: &LiftedCurve, p: DVec3, range: (f64, f64), start: f64
     let mut at = curve.at(t);
     let mut best = Nearest { at, distance: (at.point - p).length() };
     let mut before: Option<(f64, f64)> = None;
+    let quiet = 0.25 * curve.ground().rounding();
     for _ in 0..STEPS {
         let slope = (at.point - p).dot(at.tangent);
         let speed = at.tangent.length_squared();
-        if !(speed > 0.0) || slope == 0.0 {
+        // How far along the curve the foot is still off; what is left below rounding is noise without an end.
+        let off = quiet.max(SIDEWAYS * best.distance);
+        if !(speed > 0.0) || slope * slope <= off * off * speed {
             break;
         }
         let newton = slope / speed;

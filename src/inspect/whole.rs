@@ -14,7 +14,7 @@ use super::scale::Scale;
 use crate::kernel::trim::EdgeId;
 
 /// Points by which curves are compared: ends, quarters, middle.
-type Marks = [DVec3; 5];
+pub type Marks = [DVec3; 5];
 type Cell = (i32, [i64; 3]);
 
 /// Groups of curves that coincide as a whole. Curves and groups are numbers; groups of one are groups too.
@@ -37,7 +37,8 @@ struct Group {
     edge: Option<EdgeId>,
 }
 
-fn marks(curve: &LiftedCurve) -> Marks {
+/// The marks of a curve.
+pub fn marks(curve: &LiftedCurve) -> Marks {
     let [start, end] = curve.ends();
     let at = |part: f64| curve.at(curve.parameter_at(part * curve.length())).point;
     [start, at(0.25), at(0.5), at(0.75), end]
@@ -76,9 +77,9 @@ impl Groups {
         self.group_of.get(id as usize).copied().flatten()
     }
 
-    /// Enters a curve: into the group it coincides with, else into one of its own.
-    pub fn insert(&mut self, id: u32, curve: &LiftedCurve) {
-        let (marks, tolerance) = (marks(curve), Scale::whole(curve));
+    /// Enters a curve with its [`marks`]: into the group it coincides with, else into one of its own.
+    pub fn insert(&mut self, id: u32, curve: &LiftedCurve, marks: Marks) {
+        let tolerance = Scale::whole(curve);
         if self.group_of.len() <= id as usize {
             self.group_of.resize(id as usize + 1, None);
         }

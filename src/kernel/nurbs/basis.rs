@@ -136,6 +136,36 @@ impl KnotVector {
     }
 }
 
+impl KnotVector {
+    /// The `degree + 1` basis functions at `t` in span `span` and their first derivatives: the same as
+    /// [`Self::basis`] up to rounding, quicker and on the stack. `N` must exceed the degree.
+    pub fn basis_and_slopes<const N: usize>(&self, span: usize, t: f64) -> [[f64; N]; 2] {
+        let (p, u) = (self.degree(), self.as_slice());
+        let [mut values, mut slopes, mut left, mut right] = [[0.0; N]; 4];
+        values[0] = 1.0;
+        for j in 1..=p {
+            left[j] = t - u[span + 1 - j];
+            right[j] = u[span + j] - t;
+            let mut saved = 0.0;
+            for r in 0..j {
+                // In the last round the quotients are also what derivatives are differences of.
+                let quotient = values[r] / (right[r + 1] + left[j - r]);
+                slopes[r] = quotient;
+                values[r] = saved + right[r + 1] * quotient;
+                saved = left[j - r] * quotient;
+            }
+            values[j] = saved;
+        }
+        let mut before = 0.0;
+        for slope in &mut slopes[..=p] {
+            let quotient = *slope;
+            *slope = p as f64 * (before - quotient);
+            before = quotient;
+        }
+        [values, slopes]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -157,6 +187,11 @@ mod tests {
                     assert_eq!(&short[order], &long[order], "degree {degree} at {t}");
                 }
                 assert_eq!(&knots.basis(span, t, 0)[0], &long[0]);
+                let quick = knots.basis_and_slopes::<10>(span, t);
+                for j in 0..=degree {
+                    assert_eq!(quick[0][j], long[0][j]);
+                    assert!((quick[1][j] - long[1][j]).abs() < 1e-12, "degree {degree} at {t}");
+                }
                 assert!((long[0].iter().sum::<f64>() - 1.0).abs() < 1e-14);
                 assert!(long[1].iter().sum::<f64>().abs() < 1e-11);
             }

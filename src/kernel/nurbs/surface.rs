@@ -1,6 +1,6 @@
 //! Rational tensor-product B-spline surfaces.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use super::{KnotVector, NurbsError, check_points};
 use crate::kernel::bezier::Tangents;
@@ -102,6 +102,42 @@ impl NurbsSurface {
 
     /// Point and first derivatives at `(u, v)`.
     pub fn tangents(&self, u: f64, v: f64) -> Tangents {
+        let (pu, pv) = self.degrees();
+        match pu.max(pv) {
+            0..=3 => self.tangents_sized::<4>(u, v),
+            4..=7 => self.tangents_sized::<8>(u, v),
+            _ => self.tangents_any(u, v),
+        }
+    }
+
+    /// The same on the stack, row by row, where both degrees are below `N`: inspection asks hundreds of times
+    /// a face.
+    fn tangents_sized<const N: usize>(&self, u: f64, v: f64) -> Tangents {
+        let (pu, pv) = self.degrees();
+        let (_, count_v) = self.counts();
+        let (su, sv) = (self.knots_u.span(u), self.knots_v.span(v));
+        let (bu, bv) = (self.knots_u.basis_and_slopes::<N>(su, u), self.knots_v.basis_and_slopes::<N>(sv, v));
+        let [mut value, mut along_u, mut along_v] = [DVec4::ZERO; 3];
+        for i in 0..=pu {
+            let first = (su - pu + i) * count_v + sv - pv;
+            let (points, weights) = (&self.points[first..=first + pv], &self.weights[first..=first + pv]);
+            let (mut row, mut row_v) = (DVec4::ZERO, DVec4::ZERO);
+            for ((j, point), weight) in points.iter().enumerate().zip(weights) {
+                let point = point.extend(1.0);
+                row += point * (bv[0][j] * weight);
+                row_v += point * (bv[1][j] * weight);
+            }
+            value += row * bu[0][i];
+            along_u += row * bu[1][i];
+            along_v += row_v * bu[0][i];
+        }
+        let w = value.w;
+        let point = value.truncate() / w;
+        let derivative = |a: DVec4| (a.truncate() - point * a.w) / w;
+        Tangents { point, du: derivative(along_u), dv: derivative(along_v) }
+    }
+
+    fn tangents_any(&self, u: f64, v: f64) -> Tangents {
         let d = self.homogeneous(u, v, 1);
         let (point, w) = d[0][0];
         Tangents { point, du: (d[1][0].0 - point * d[1][0].1) / w, dv: (d[0][1].0 - point * d[0][1].1) / w }
