@@ -13,7 +13,9 @@ use super::trim::loop_record::LoopRecord;
 use super::trim::loops::{self, TrimLoops};
 use super::trim::pack::{PackedSegments, TooManySegments};
 use super::trim::resume::{LoopMemory, Resumed, narrowed};
-use super::trim::{FillRule, IntervalLists, ParityGrid, PieceList, SegmentSet, TrimStructure, oracle};
+use super::trim::{
+    FillRule, IntervalLists, ParityGrid, PieceList, SegmentSet, SlabGrid, TrimStructure, oracle,
+};
 pub use super::trim::{TrimRemark, UvRect};
 use super::view::Bounds;
 
@@ -205,6 +207,15 @@ impl Face {
     /// P1's structure over the same segments, for its tables and as the baseline.
     pub fn interval_lists(&self) -> IntervalLists {
         IntervalLists::new(&self.pieces, &self.segments, FillRule::EvenOdd)
+    }
+
+    /// The trimming structure for millions of questions on the processor: the same answers as
+    /// [`Self::grid`], bit for bit, in about half the time.
+    pub fn slab_grid(&self) -> SlabGrid {
+        match PackedSegments::new(&self.pieces, &self.segments) {
+            Ok(packed) => SlabGrid::new(&self.segments, &packed, &GridOptions::default()),
+            Err(_) => SlabGrid::over(self.grid.clone()),
+        }
     }
 
     /// Where the native point `(u, v)` lies; [`Side::On`] within [`ON_TOLERANCE`] of a trim curve. On a

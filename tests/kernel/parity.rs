@@ -9,7 +9,7 @@ use hairline::kernel::trim::grid::GridOptions;
 use hairline::kernel::trim::grid::layout::CELL_REFINED;
 use hairline::kernel::trim::pack::PackedSegments;
 use hairline::kernel::trim::{
-    BruteForce, FillRule, ParityGrid, PieceList, SegmentSet, TrimStructure, oracle,
+    BruteForce, Counters, FillRule, ParityGrid, PieceList, SegmentSet, SlabGrid, TrimStructure, oracle,
 };
 use proptest::prelude::*;
 
@@ -88,8 +88,10 @@ impl Trimmed {
             ] {
                 let options = GridOptions { cells_per_segment: per_segment, crowded, levels, rule };
                 let grid = ParityGrid::new(&self.set, &self.packed, &options);
+                let slabs = SlabGrid::over(grid.clone());
                 for (p, inside) in points.iter().zip(&truth) {
                     assert_eq!(grid.classify(*p), *inside, "{p:?} with {options:?}");
+                    assert_eq!(slabs.classify(*p), *inside, "slabs: {p:?} with {options:?}");
                 }
             }
         }
@@ -237,6 +239,27 @@ fn the_grid_equals_brute_force_bit_for_bit_on_the_zoo() {
         refined += grid.cells.iter().filter(|c| *c & CELL_REFINED != 0).count();
     }
     assert!(refined > 20, "only {refined} cells of the zoo are refined");
+}
+
+/// Slabs decide nearly all points, and many points near their borders are as the grid has them.
+#[test]
+fn slabs_leave_few_points_to_the_grid() {
+    let shapes =
+        [(Shape::Holes, 0.07), (Shape::RationalHoles, 0.07), (Shape::Blob, 0.07), (Shape::Hair, 0.2)];
+    for (shape, most) in shapes {
+        let trimmed = Trimmed::new(&shape.loops(400));
+        let slabs = SlabGrid::new(&trimmed.set, &trimmed.packed, &GridOptions::default());
+        let brute = BruteForce::new(trimmed.packed.clone(), FillRule::EvenOdd);
+        let (mut counters, count) = (Counters::default(), 20_000);
+        let mut random = Random(11);
+        for _ in 0..count {
+            let p = random.point().as_vec2();
+            assert_eq!(slabs.classify_counted(p, &mut counters), brute.classify(p), "{} {p:?}", shape.name());
+        }
+        let tested = counters.tests as f64 / f64::from(count);
+        println!("{}: {tested}", shape.name());
+        assert!(tested < most, "{}: {tested} tests for each point", shape.name());
+    }
 }
 
 #[test]

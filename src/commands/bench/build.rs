@@ -6,7 +6,9 @@ use super::shapes::Shape;
 use super::sheet::{Sheet, fastest, number};
 use crate::kernel::trim::grid::GridOptions;
 use crate::kernel::trim::pack::PackedSegments;
-use crate::kernel::trim::{FillRule, IntervalLists, ParityGrid, PieceList, SegmentSet, TrimStructure};
+use crate::kernel::trim::{
+    FillRule, IntervalLists, ParityGrid, PieceList, SegmentSet, SlabGrid, TrimStructure,
+};
 use crate::scene::records::{FaceRecord, ModelRecord};
 
 /// P1's structure is not built beyond this many clipped curves.
@@ -18,7 +20,7 @@ const MOST_CLIPPED: usize = 500_000;
 /// `out` cannot be written.
 pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
     let mut sheet = Sheet::new(
-        "Building, one thread, fastest of several runs. Split: us per curve; records, grid, P1: us per segment",
+        "Building, one thread, fastest of several runs. Split: us per curve; records, grid, slabs, P1: us per segment",
         &[
             "shape",
             "curves",
@@ -27,8 +29,10 @@ pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
             "records",
             "grid",
             "records+grid",
+            "slabs",
             "P1",
             "B/segment",
+            "slabs B/segment",
             "P1 B/segment",
             "P1 clipped",
         ],
@@ -71,6 +75,8 @@ fn shape_row(shape: Shape, curves: usize) -> Vec<String> {
     let options = GridOptions::default();
     let grid_time = fastest(runs, || ParityGrid::new(&set, &packed, &options));
     let grid = ParityGrid::new(&set, &packed, &options);
+    let slabs_time = fastest(runs, || SlabGrid::new(&set, &packed, &options));
+    let slabs = SlabGrid::new(&set, &packed, &options);
     let clipped = IntervalLists::count_clipped(&set);
     let bounded = || IntervalLists::bounded(&pieces, &set, FillRule::EvenOdd, MOST_CLIPPED);
     let lists = bounded();
@@ -85,8 +91,10 @@ fn shape_row(shape: Shape, curves: usize) -> Vec<String> {
         us(records, segments),
         us(grid_time, segments),
         us(records + grid_time, segments),
+        us(slabs_time, segments),
         number(lists_time.map(|t| 1e6 * t / segments)),
         number(Some(grid.memory_bytes() as f64 / segments)),
+        number(Some(slabs.memory_bytes() as f64 / segments)),
         number(lists.map(|l| l.memory_bytes() as f64 / segments)),
         number(Some(clipped as f64 / segments)),
     ]

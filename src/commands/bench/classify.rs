@@ -15,7 +15,7 @@ use crate::kernel::face::Face;
 use crate::kernel::trim::grid::GridOptions;
 use crate::kernel::trim::pack::PackedSegments;
 use crate::kernel::trim::{
-    Counters, FillRule, IntervalLists, ParityGrid, PieceList, SegmentSet, TrimStructure, oracle,
+    Counters, FillRule, IntervalLists, ParityGrid, PieceList, SegmentSet, SlabGrid, TrimStructure, oracle,
 };
 use crate::scene::records::ModelRecord;
 
@@ -161,6 +161,9 @@ fn shape_sheet(shape: Shape, curves: usize) -> Sheet {
     sheet.row(row("floor", measure(&points, |p| floor.classify(p)), bar, lists_bar));
     let grid_times = measure(&points, |p| grid.classify(p));
     sheet.row(structure_row("grid", &points, &grid, (grid_times, bar, lists_bar), count));
+    let slabs = SlabGrid::new(&set, &packed, &GridOptions::default());
+    let slab_times = measure(&points, |p| slabs.classify(p));
+    sheet.row(structure_row("slabs", &points, &slabs, (slab_times, bar, lists_bar), count));
     match (&lists, lists_times) {
         (Some(lists), Some(times)) => {
             sheet.row(structure_row("P1", &points, lists, (times, bar, lists_bar), count));
@@ -190,6 +193,7 @@ fn model_sheet(model: &ModelRecord) -> Sheet {
     let mut random = Random(3);
     let points: Vec<Vec2> = (0..PER_FACE).map(|_| random.point().as_vec2()).collect();
     let lists: Vec<IntervalLists> = faces.iter().map(Face::interval_lists).collect();
+    let slabs: Vec<SlabGrid> = faces.iter().map(Face::slab_grid).collect();
     let flattened: Vec<Flattened> = faces.iter().map(|f| Flattened::new(&normalised_loops(f))).collect();
     let total = faces.len() * PER_FACE;
     let curves: usize = faces.iter().map(|f| f.counts.bezier).sum();
@@ -224,6 +228,8 @@ fn model_sheet(model: &ModelRecord) -> Sheet {
     let grid_ns = mean(&|i| per_item(&points, RUNS, |p| faces[i].grid.classify(*p)));
     let lists_ns = mean(&|i| per_item(&points, RUNS, |p| lists[i].classify(*p)));
     add("grid", grid_ns, faces.iter().map(|f| &f.grid as &dyn Counted).collect());
+    let slabs_ns = mean(&|i| per_item(&points, RUNS, |p| slabs[i].classify(*p)));
+    add("slabs", slabs_ns, slabs.iter().map(|s| s as &dyn Counted).collect());
     add("P1", lists_ns, lists.iter().map(|l| l as &dyn Counted).collect());
     sheet.row(["flattened".to_owned(), number(Some(bar))]);
     sheet

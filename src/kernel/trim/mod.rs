@@ -4,7 +4,8 @@
 //! ([`segment::Segment`]); a structure answers "inside?" for one point at a time. Three structures
 //! share one interface, [`TrimStructure`]: [`brute::BruteForce`] (all segments, the yardstick),
 //! P1's interval lists (Schollmeyer & Froehlich 2009, section 4) and [`grid::ParityGrid`], the
-//! default, whose buffers are also what the GPU reads. The f64 oracle is apart from all of them.
+//! default, whose buffers are also what the GPU reads; [`SlabGrid`] is the same made quicker for millions of
+//! questions on the processor. The f64 oracle is apart from all of them.
 //!
 //! Conventions: u, v normalised to `[0, 1]`; rays run in +u; a segment is crossed at `v` when
 //! `v_lower <= v < v_upper` (decided on shared f32 vertices) and its `u(v) > u`.
@@ -25,6 +26,7 @@ pub mod record;
 pub mod remark;
 pub mod resume;
 pub mod segment;
+pub mod slab_grid;
 pub mod tally;
 pub mod validity;
 
@@ -38,6 +40,7 @@ pub use pieces::{Piece, PieceList};
 pub use remark::TrimRemark;
 pub use resume::Splice;
 pub use segment::{Segment, SegmentSet};
+pub use slab_grid::SlabGrid;
 pub use tally::{Counters, Tally};
 
 use glam::Vec2;

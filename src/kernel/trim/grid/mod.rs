@@ -8,6 +8,7 @@ pub mod frame;
 pub mod layout;
 mod leaves;
 mod refine;
+pub mod slab;
 pub mod span;
 pub mod update;
 

@@ -9,9 +9,9 @@ use crate::kernel::trim::record::{self, entry_degree};
 use crate::kernel::trim::segment::Segment;
 
 /// Rounding of positions and cell numbers, in uv.
-const MARGIN: f64 = 2e-7;
+pub(super) const MARGIN: f64 = 2e-7;
 /// Rounding of the f32 evaluation, as a fraction of the segment's box.
-const EVALUATION: f64 = 2e-6;
+pub(super) const EVALUATION: f64 = 2e-6;
 
 /// Width of a band that is narrow beside a cell, in cells: less lists fewer segments for nothing and costs more to build.
 const NARROW: f64 = 0.25;
