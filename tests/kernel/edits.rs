@@ -119,9 +119,9 @@ fn a_face_derived_after_edits_equals_one_derived_anew() {
 
 #[test]
 fn a_random_walk_of_edits_leaves_nothing_behind_and_leads_back() {
-    let walk = hairline::commands::bench::walk::walk(3000, 500, 5);
+    let walk = hairline::commands::bench::walk::walk(3000, 500, 5, &|_| ());
     assert_eq!(walk.compared[1], 0, "{walk:?}");
     assert!(walk.came_back && walk.steps.iter().all(|n| *n > 200), "{walk:?}");
-    let (size, free) = walk.room[1];
+    let (size, free) = walk.room[2];
     assert!(size > 0 && free < size / 2, "{walk:?}");
 }

@@ -36,6 +36,7 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
             Table::Raycast,
             Table::Misses,
             Table::Scene,
+            Table::Gaps,
         ],
     };
     let models = models(&arguments.files)?;

@@ -5,11 +5,10 @@
 //! single patch of the model's most common degrees that fills the window, every pixel hit at once.
 
 use std::io::{self, Write};
-use std::time::Instant;
 
 use glam::{DVec2, DVec3};
 
-use super::sheet::{Sheet, number};
+use super::sheet::{Sheet, cpu_per_run, number};
 use crate::encoding::options::cast_flags;
 use crate::encoding::{
     DepthRange, DisplayMode, FaceShape, FaceSlot, LevelView, MeshChoice, MeshScene, PackedScene, View,
@@ -261,23 +260,4 @@ fn gpu_frame(
     let words = read_texture(context, &renderer.targets().visibility)?;
     let filled = words.chunks_exact(16).filter(|w| w[..4] != [0; 4]).count();
     Ok(Frame { seconds, filled, counts: CastCounts::default() })
-}
-
-/// CPU seconds of this process per run of `work`, wall seconds where the system does not tell.
-fn cpu_per_run(runs: u32, mut work: impl FnMut()) -> f64 {
-    let (wall, cpu) = (Instant::now(), process_seconds());
-    (0..runs).for_each(|_| work());
-    let spent = match (cpu, process_seconds()) {
-        (Some(before), Some(after)) => after - before,
-        _ => wall.elapsed().as_secs_f64(),
-    };
-    spent / f64::from(runs)
-}
-
-/// User and system time of all threads so far, from Linux's process table (100 ticks a second).
-fn process_seconds() -> Option<f64> {
-    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
-    let fields: Vec<&str> = stat.rsplit(')').next()?.split_whitespace().collect();
-    let ticks = |k: usize| fields.get(k)?.parse::<f64>().ok();
-    Some((ticks(11)? + ticks(12)?) / 100.0)
 }

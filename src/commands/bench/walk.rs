@@ -1,8 +1,9 @@
 //! `hairline bench walk`: a long random walk of edits, undos and redos, with everything derived and packed
 //! after each step from what the step before left.
 //!
-//! Now and then, and at the end, all of it is compared bit for bit with the same made from scratch; at the
-//! end all steps are taken back, which must lead to where the walk began.
+//! Now and then, and at the end, all of it is compared bit for bit with the same made from scratch: derived
+//! faces, packed ranges, and the numbers of elements in use; used and unused ranges must add up to the arrays.
+//! At the end all steps are taken back, which must lead to where the walk began.
 
 use std::io::{self, Write};
 use std::time::Instant;
@@ -36,10 +37,13 @@ pub struct Walk {
     pub compared: [usize; 2],
     /// Whether taking all steps back led to the beginning.
     pub came_back: bool,
-    /// Elements in the packed arrays half way and at the end, and those of them that no face used.
-    pub room: [(usize, usize); 2],
-    /// Resident memory in MiB half way and at the end, where the system tells.
-    pub memory: [Option<f64>; 2],
+    /// Elements in the packed arrays after a tenth of the walk, half way and at the end, and those of them that
+    /// no face used.
+    pub room: [(usize, usize); 3],
+    /// Resident memory in MiB at the same times, where the system tells.
+    pub memory: [Option<f64>; 3],
+    /// Steps that the history held at the same times, to take back or to do again, and MiB of them.
+    pub history: [(usize, f64); 3],
 }
 
 /// Prints what a walk of 100,000 steps came to.
@@ -48,7 +52,11 @@ pub struct Walk {
 /// `out` cannot be written.
 pub fn run(out: &mut impl Write) -> io::Result<()> {
     let start = Instant::now();
-    let walk = walk(STEPS, STEPS / 200, 1);
+    let progress = |step: usize| {
+        let (memory, s) = (number(resident_mib()), start.elapsed().as_secs_f64());
+        eprintln!("  {step} of {STEPS} steps, {s:.1} s, {memory} MiB");
+    };
+    let walk = walk(STEPS, STEPS / 200, 1, &progress);
     let us = 1e6 * start.elapsed().as_secs_f64() / STEPS as f64;
     let mut sheet = Sheet::new("Random edits, undos and redos, all derived and packed each time", &["", ""]);
     let mut row = |name: &str, text: String| sheet.row([name.to_owned(), text]);
@@ -56,18 +64,19 @@ pub fn run(out: &mut impl Write) -> io::Result<()> {
     row("us per step", number(Some(us)));
     row(
         "compared with made from scratch",
-        format!("{} times, {} differ", walk.compared[0], walk.compared[1]),
+        format!(
+            "{} times, {} differ (faces, packed ranges, elements in use)",
+            walk.compared[0], walk.compared[1]
+        ),
     );
     row("all taken back", if walk.came_back { "equal to the beginning" } else { "DIFFERS" }.into());
-    for (when, k) in [("half way", 0), ("at the end", 1)] {
-        let (size, free) = walk.room[k];
+    for (when, k) in [("after a tenth", 0), ("half way", 1), ("at the end", 2)] {
+        let ((size, free), (steps, mib)) = (walk.room[k], walk.history[k]);
+        let unused = number(Some(100.0 * free as f64 / size.max(1) as f64));
+        row(&format!("{when}: array elements, unused %"), format!("{size}, {unused}"));
         row(
-            &format!("{when}: array elements, unused %, MiB of the process"),
-            format!(
-                "{size}, {}, {}",
-                number(Some(100.0 * free as f64 / size.max(1) as f64)),
-                number(walk.memory[k])
-            ),
+            "steps in the history, their MiB, MiB of the process",
+            format!("{steps}, {}, {}", number(Some(mib)), number(walk.memory[k])),
         );
     }
     writeln!(out, "{sheet}")
@@ -87,8 +96,8 @@ struct Walker {
     random: Random,
 }
 
-/// Walks for `steps` steps, comparing every `every` steps.
-pub fn walk(steps: usize, every: usize, seed: u64) -> Walk {
+/// Walks for `steps` steps, comparing every `every` steps and telling `progress` every tenth of the way.
+pub fn walk(steps: usize, every: usize, seed: u64, progress: &dyn Fn(usize)) -> Walk {
     let model = ModelRecord {
         faces: vec![face(6, 2), face(12, 1), face(1, 3), face(24, 2)],
         ..ModelRecord::default()
@@ -108,10 +117,16 @@ pub fn walk(steps: usize, every: usize, seed: u64) -> Walk {
         if step % every == every - 1 {
             walker.compare(&mut walk);
         }
-        if step + 1 == steps.div_ceil(2) || step + 1 == steps {
-            let k = usize::from(step + 1 == steps);
+        let done = step + 1;
+        if let Some(k) = [steps.div_ceil(10), steps.div_ceil(2), steps].iter().position(|s| *s == done) {
             walk.room[k] = walker.packed.room().unwrap_or_default();
             walk.memory[k] = resident_mib();
+            let history = &walker.history;
+            let mib = history.bytes() as f64 / f64::from(1 << 20);
+            walk.history[k] = (history.undo_count() + history.redo_count(), mib);
+        }
+        if done % steps.div_ceil(10) == 0 {
+            progress(done);
         }
     }
     while walker.take_back() {}
@@ -242,11 +257,13 @@ impl Walker {
     /// Compares everything with the same made from scratch.
     fn compare(&self, walk: &mut Walk) {
         walk.compared[0] += 1;
+        let mut in_use = 0;
         let same = self.held.iter().enumerate().all(|(k, held)| {
             let fresh = self.face(k).derive().ok();
             let alike = match (&fresh, held.slot) {
                 (Some(face), Some(slot)) => {
                     let anew = PackedScene::from_faces([FaceShape::of(face, None, false)]);
+                    in_use += anew.room().map_or(0, |(size, free)| size - free);
                     self.packed.is_packed_like(slot, &anew, FaceSlot(0))
                 }
                 (None, None) => true,
@@ -254,7 +271,8 @@ impl Walker {
             };
             alike && held.derived == fresh
         });
-        walk.compared[1] += usize::from(!same || self.packed.room().is_none());
+        let no_leak = self.packed.room().is_some_and(|(size, free)| size - free == in_use);
+        walk.compared[1] += usize::from(!same || !no_leak);
     }
 }
 
