@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DVec2, DVec3};
+use hairline::commands::bench::shapes::Shape;
 use hairline::kernel::bezier::{BezierCurve2, BezierPatch};
 use hairline::kernel::face::UvRect;
 use hairline::kernel::nurbs::{KnotVector, NurbsSurface};
@@ -126,6 +127,28 @@ fn a_plate_with_a_thousand_holes_in_strips() {
     let next = comb.iter().cycle().skip(1);
     let doubled: f64 = comb.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum();
     assert_area(measure(&surface, &[polygon(&comb)]), slant * 0.5 * doubled.abs());
+}
+
+#[test]
+fn a_boundary_too_tangled_for_panels_is_sampled() {
+    let loops = Shape::Hair.loops(10_000);
+    // Green's theorem, exact for cubics with three nodes.
+    let off = (3.0f64 / 20.0).sqrt();
+    let around = loops[0].iter().map(|curve| {
+        let term = |t: f64, w: f64| {
+            let jet = curve.jet(t);
+            w * jet.point.x * jet.d1.y
+        };
+        term(0.5 - off, 5.0 / 18.0) + term(0.5, 8.0 / 18.0) + term(0.5 + off, 5.0 / 18.0)
+    });
+    let expected = around.sum::<f64>().abs();
+    let (surface, slant) = plane(DVec2::ZERO, DVec2::ONE);
+    let pieces = PieceList::from_loops(&loops, 1e-9);
+    let unit = UvRect { min: DVec2::ZERO, max: DVec2::ONE };
+    let found = trimmed_area(&Sheet::new(&surface.to_bezier()), &Boundary::new(&pieces, &unit));
+    let miss = (found.value / slant - expected).abs() / expected;
+    assert!(miss < 1e-3 && found.error < 0.02 * found.value, "{found:?}, {expected} times {slant}");
+    assert!(found.error > 1e-8 * found.value, "measured in panels: {found:?}");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::exchange::report::{ImportReport, Remark, Severity};
 use crate::kernel::face::Face;
-use crate::kernel::query::{face_area, face_bounds};
+use crate::kernel::query::{Area, face_area, face_bounds};
 use crate::kernel::trim::TrimStructure;
 use crate::kernel::view::Bounds;
 use crate::scene::records::{FaceRecord, LengthUnit, ModelRecord, SourceRecord};
@@ -147,8 +147,14 @@ pub fn summarise(model: &ModelRecord, report: &ImportReport, progress: &(dyn Fn(
                 face_info.area = derived.area;
                 face_info.bbox = flat(&derived.bounds);
                 face_info.uv_box = uv_box(&derived.face);
+                let (error, area) = (derived.area_error, derived.area.unwrap_or(0.0));
+                if error > AREA_DOUBT * area {
+                    let message =
+                        format!("its area is only known to {error:.1e}: the surface folds or breaks");
+                    info.report.remarks.push(remark(record, index, Severity::Warning, &message));
+                }
             }
-            Err(reason) => info.report.remarks.push(remark(record, index, &reason)),
+            Err(reason) => info.report.remarks.push(remark(record, index, Severity::Error, &reason)),
         }
         info.faces.push(face_info);
     }
@@ -160,14 +166,18 @@ pub fn summarise(model: &ModelRecord, report: &ImportReport, progress: &(dyn Fn(
 struct Derived {
     face: Face,
     area: Option<f64>,
+    area_error: f64,
     bounds: Bounds,
 }
+
+/// An area that may be off by more than this part of it gets a remark.
+const AREA_DOUBT: f64 = 1e-4;
 
 impl Derived {
     fn new(record: &FaceRecord) -> Result<Self, String> {
         let face = record.derive().map_err(|e| e.to_string())?;
-        let area = face_area(&face).value;
-        Ok(Self { area: area.is_finite().then_some(area), bounds: face_bounds(&face), face })
+        let Area { value: area, error: area_error } = face_area(&face);
+        Ok(Self { area: area.is_finite().then_some(area), area_error, bounds: face_bounds(&face), face })
     }
 }
 
@@ -200,15 +210,9 @@ impl Info {
     }
 }
 
-fn remark(record: &FaceRecord, index: usize, reason: &str) -> Remark {
+fn remark(record: &FaceRecord, index: usize, severity: Severity, reason: &str) -> Remark {
     let (entity, id) = record.source.as_ref().map_or((String::new(), 0), |s| (s.entity.clone(), s.id));
-    Remark {
-        severity: Severity::Error,
-        entity,
-        id,
-        line: 0,
-        message: format!("face {}: {reason}", index + 1),
-    }
+    Remark { severity, entity, id, line: 0, message: format!("face {}: {reason}", index + 1) }
 }
 
 impl FaceInfo {

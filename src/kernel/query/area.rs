@@ -6,7 +6,9 @@
 //! root of v there: the panel is then measured in a variable of which v is a square (or a cubic smooth step,
 //! both ends), which makes the integrand smooth. Even-odd pairs the crossings of each row.
 //!
-//! The error estimate is the sum of the last differences, far above the error of converged panels.
+//! The error estimate is the sum of the last differences, far above the error of converged panels. The work is
+//! bounded whatever a file asks for: panels that do not converge, and boundaries too tangled for panels, end with a
+//! larger error.
 
 use super::boundary::{Boundary, Edge};
 use super::quadrature::{ORDERS, rule};
@@ -29,7 +31,19 @@ const ACCURACY: f64 = 1e-10;
 const EDGES_ACROSS: f64 = 6.0;
 /// Points of the surface looked at before panels are no longer halved: folded surfaces, whose area element has
 /// creases inside patches, do not converge.
-const EFFORT: usize = 5_000_000;
+const EFFORT: usize = 6_000_000;
+/// Finding where an edge crosses a height counts as so many points.
+const CROSSING: usize = 6;
+/// Boundaries whose panels are crossed more often than this are sampled in rows.
+const MOST_CROSSINGS: f64 = 2e6;
+/// The same for tangled ones, which cross rows of a strip more than [`TANGLED`] times.
+const MOST_TANGLED: f64 = 5e4;
+/// See [`MOST_TANGLED`].
+const TANGLED: f64 = 24.0;
+/// Crossings in all rows of a sampled boundary.
+const SAMPLED_CROSSINGS: f64 = 2e6;
+/// Rows that [`Panel::rule_across`] looks at, with all rules up to the one it takes: as many again.
+const THREE_ROWS: usize = 6;
 /// Halvings of a panel.
 const DEPTH: u32 = 14;
 /// Mean v-speeds below this part of an edge's mean count as turning.
@@ -51,8 +65,14 @@ pub fn trimmed_area(sheet: &Sheet, boundary: &Boundary) -> Area {
     let at = |k: usize| if k == count { right } else { left + (right - left) * (k as f64 / count as f64) };
     let strips: Vec<Strip> = (0..count).map(|k| Strip::new(boundary, at(k), at(k + 1), count > 1)).collect();
     let whole = boundary.edges().is_empty();
+    if is_tangled(&strips) {
+        return sampled(sheet, boundary, (left, right));
+    }
     let panels: Vec<Panel> = strips.iter().flat_map(|strip| panels(sheet, strip, whole)).collect();
     let rough: f64 = panels.iter().map(|p| p.integrate(sheet, 1, (1, 1))).sum();
+    if !rough.is_finite() {
+        return Area { value: rough, error: f64::INFINITY };
+    }
     let mut area = Area::default();
     let mut effort = EFFORT;
     for panel in &panels {
@@ -70,11 +90,54 @@ struct Strip {
     boundary: Boundary,
 }
 
+/// Whether edges cross the panels of `strips` too often: evenly spread ones do so some ten times a row.
+fn is_tangled(strips: &[Strip]) -> bool {
+    let rows: Vec<f64> = strips.iter().map(|s| mean_crossings(&s.boundary)).collect();
+    let panels = strips.iter().map(|s| 2.0 * s.boundary.edges().len() as f64);
+    let crossings: f64 = panels.zip(&rows).map(|(panels, row)| panels * row).sum();
+    let row = rows.iter().sum::<f64>() / rows.len().max(1) as f64;
+    crossings > if row > TANGLED { MOST_TANGLED } else { MOST_CROSSINGS }
+}
+
 impl Strip {
     fn new(boundary: &Boundary, from: f64, to: f64, cut: bool) -> Self {
         let boundary = if cut { boundary.strip(from, to) } else { boundary.clone() };
         Self { from, to, boundary }
     }
+}
+
+/// How many edges a row crosses on average.
+fn mean_crossings(boundary: &Boundary) -> f64 {
+    let edges = boundary.edges();
+    let low = edges.iter().fold(f64::INFINITY, |a, e| a.min(e.low));
+    let high = edges.iter().fold(f64::NEG_INFINITY, |a, e| a.max(e.high));
+    let sum: f64 = edges.iter().map(|e| e.high - e.low).sum();
+    if high > low { sum / (high - low) } else { 0.0 }
+}
+
+/// The area from evenly spread rows, without panels: for boundaries like hair, which damaged files have, and for
+/// more holes than anyone counts. The error is estimated from every other row.
+fn sampled(sheet: &Sheet, boundary: &Boundary, limits: (f64, f64)) -> Area {
+    let lines = sheet.v_lines();
+    let (Some(&bottom), Some(&top)) = (lines.first(), lines.last()) else { return Area::default() };
+    let rows = (SAMPLED_CROSSINGS / mean_crossings(boundary).max(1.0)).clamp(200.0, 20_000.0) as usize;
+    let mut edges: Vec<&Edge> = boundary.edges().iter().filter(|e| e.high > e.low).collect();
+    edges.sort_by(|a, b| a.low.total_cmp(&b.low));
+    let (mut active, mut next) = (Vec::<&Edge>::new(), 0);
+    let mut sums = [0.0; 2];
+    for k in 0..rows {
+        let v = bottom + (top - bottom) * ((k as f64 + 0.5) / rows as f64);
+        active.retain(|e| e.high > v);
+        while let Some(edge) = edges.get(next).filter(|e| e.low <= v) {
+            active.extend(Some(*edge).filter(|e| e.high > v));
+            next += 1;
+        }
+        let mut crossings: Vec<f64> = active.iter().map(|e| e.u_at(v)).collect();
+        crossings.sort_unstable_by(f64::total_cmp);
+        sums[k % 2] += Row::new(sheet, interval(lines, v), v, limits, &crossings).integrate((0, 1));
+    }
+    let height = (top - bottom) / rows as f64;
+    Area { value: height * (sums[0] + sums[1]), error: 2.0 * height * (sums[0] - sums[1]).abs() }
 }
 
 /// The part of a strip between two heights that edges cross from bottom to top.
@@ -137,17 +200,21 @@ impl Panel<'_> {
     /// The panel's area to `tolerance`.
     fn measure(&self, sheet: &Sheet, tolerance: f64, depth: u32, effort: &mut usize) -> Area {
         let across = self.rule_across(sheet, tolerance);
-        let nodes = ORDERS.iter().sum::<usize>() * ORDERS[across.0] * across.1;
-        *effort = effort.saturating_sub(nodes * self.edges.len().max(2) / 2);
+        let mut spent = self.cost(THREE_ROWS, across) + self.cost(ORDERS[1], across);
         let mut before = self.integrate(sheet, 1, across);
         let mut error = f64::INFINITY;
-        for order in 2..ORDERS.len() {
+        for (order, rows) in ORDERS.into_iter().enumerate().skip(2) {
             let value = self.integrate(sheet, order, across);
+            spent += self.cost(rows, across);
             error = (value - before).abs();
             before = value;
             if error <= tolerance {
-                return Area { value, error };
+                break;
             }
+        }
+        *effort = effort.saturating_sub(spent);
+        if error <= tolerance {
+            return Area { value: before, error };
         }
         if depth == 0 || *effort == 0 || error.is_nan() {
             return Area { value: before, error };
@@ -159,6 +226,11 @@ impl Panel<'_> {
         let upper =
             part(middle, self.high, (false, self.turning.1)).measure(sheet, tolerance, depth - 1, effort);
         Area { value: lower.value + upper.value, error: lower.error + upper.error }
+    }
+
+    /// What `rows` rows cost in points, with the rule `across`.
+    fn cost(&self, rows: usize, (order, parts): (usize, usize)) -> usize {
+        rows * (self.edges.len() * CROSSING + self.edges.len().max(2) / 2 * ORDERS[order] * parts)
     }
 
     /// A rule in u (order index and number of equal parts) that suffices at three heights.
