@@ -246,32 +246,17 @@ pub(super) fn report(
     *outcome = MendOutcome { last: Some((edge, text)), pending: None };
 }
 
-/// Why it was not closed, with lengths as people write them.
+/// Why it was not closed. `side`: number of the face that was to move.
 fn words(error: &MendError, unit: f64, side: Option<usize>) -> String {
-    let length = |x: f64| Length { mm: x * unit };
     match error {
         MendError::Sides { sides: 1 } => "A naked edge has no other side to close it to".into(),
-        MendError::Sides { sides } => {
-            format!("Only edges of two sides can be closed; this one has {sides}")
-        }
-        MendError::Closed { gap } => format!("The gap of {} is within that already", length(*gap)),
-        MendError::SurfacesApart { left, gap } => format!(
-            "The surfaces are {} apart here, so moving trims does not close the gap of {}",
-            length(*left),
-            length(*gap)
-        ),
-        MendError::NotReached { reached, gap } => format!(
-            "Nothing was changed: the best trim found leaves {} of the gap of {}",
-            length(*reached),
-            length(*gap)
-        ),
         MendError::Partial => match side {
             Some(face) => format!(
                 "Only a part of the trim of face {face} lies on this edge: split it at the end of the edge, or let the other side move"
             ),
             None => "Both trims reach beyond this edge: split one at the end of the edge first".into(),
         },
-        MendError::Tolerance { .. } | MendError::Stale { .. } => error.to_string(),
+        _ => format!("Nothing was changed: {}", error.told(unit)),
     }
 }
 
