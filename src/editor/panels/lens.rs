@@ -109,7 +109,8 @@ fn pixels(painter: &Painter, reads: &Reads, picture: &Picture, grid: &Grid) {
         crate::editor::settings::DisplayMode::Heat => DisplayMode::Heat,
         _ => DisplayMode::Shaded,
     };
-    let look = Look::new(&picture.view, mode, EdgeStyle::default(), Theme::Transparent);
+    let edges = EdgeStyle { visible: false, ..EdgeStyle::default() };
+    let look = Look::new(&picture.view, mode, edges, Theme::Transparent);
     let mut mesh = Mesh::default();
     let (width, height) = (picture.buffer.width, picture.buffer.height);
     let (columns, rows) = (grid.range(0, width), grid.range(1, height));

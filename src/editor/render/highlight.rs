@@ -122,7 +122,7 @@ pub(super) fn draw(
         highlight.pipeline = Some((format, pipeline));
     }
     let (min, size) = frame.viewport.physical();
-    let buffer = renderer.targets().size;
+    let buffer = renderer.shown().size;
     let color = |color, strength| {
         let c = Rgba::from(color).to_array();
         [c[0], c[1], c[2], strength]
@@ -147,7 +147,7 @@ pub(super) fn draw(
             wgpu::BindGroupEntry { binding: 0, resource: highlight.uniform.as_entire_binding() },
             wgpu::BindGroupEntry {
                 binding: 1,
-                resource: wgpu::BindingResource::TextureView(&renderer.targets().visibility_view),
+                resource: wgpu::BindingResource::TextureView(&renderer.shown().visibility_view),
             },
             wgpu::BindGroupEntry { binding: 2, resource: highlight.marks.as_entire_binding() },
         ],

@@ -1,21 +1,23 @@
 //! Marks of the pin holes in the picture, and how many there are.
 
-use bevy_egui::egui::{Align2, Color32, FontId, Painter, Rect, Stroke, pos2, vec2};
+use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
 
 use crate::editor::inspection::PinHoles;
 use crate::editor::panels::Reads;
-use crate::editor::panels::format::plural;
+use crate::editor::panels::format::{count, plural};
 use crate::editor::settings::HoleMarks;
 use crate::editor::theme::size;
 use crate::editor::viewport::Viewport;
-use crate::inspect::HoleClass;
+use crate::inspect::{HoleClass, PinHole};
 
 /// Radius of a ring, points.
 const RADIUS: f32 = 5.0;
+/// Longer runs, points, get a line along them in place of a ring: a wide gap is shaded.
+const LONGEST: f32 = 8.0;
 /// Side of a square over a hole, points.
 const DILATED: f32 = 5.0;
 /// Marks drawn at most: more would cover the picture.
-const MOST: usize = 4_000;
+const MOST: usize = 20_000;
 
 /// The classes with their names, as they are counted.
 pub(super) const CLASSES: [(HoleClass, &str, &str); 3] = [
@@ -23,6 +25,21 @@ pub(super) const CLASSES: [(HoleClass, &str, &str); 3] = [
     (HoleClass::Overlap, "overlap", "The sides overlap, one above the other, and one looks in between"),
     (HoleClass::Solver, "our own", "The exact surfaces have no hole there: our own solver failed"),
 ];
+
+/// Neighbouring holes in a row of the picture: one mark for all.
+struct Run {
+    class: HoleClass,
+    last: [u32; 2],
+    from: Pos2,
+    to: Pos2,
+}
+
+impl Run {
+    fn goes_on(&self, hole: &PinHole) -> bool {
+        let [x, y] = self.last;
+        hole.class == self.class && hole.pixel == [x + 1, y]
+    }
+}
 
 /// Draws them.
 pub(super) fn show(painter: &Painter, rect: Rect, reads: &Reads, viewport: &Viewport, found: &PinHoles) {
@@ -32,21 +49,27 @@ pub(super) fn show(painter: &Painter, rect: Rect, reads: &Reads, viewport: &View
         return;
     }
     let style = reads.settings.hole_marks;
-    let mut last: Option<[u32; 2]> = None;
-    let places = found.places(&reads.camera.now, viewport, moving);
-    for (hole, at) in places.take(if found.lit { MOST } else { 0 }) {
-        let (at, colour) = (pos2(at.x, at.y), colour(hole.class));
+    let places = found.places(&reads.camera.now, viewport, moving).take(if found.lit { MOST } else { 0 });
+    let mut runs: Vec<Run> = Vec::new();
+    for (hole, at) in places {
+        let at = pos2(at.x, at.y);
         if style == HoleMarks::Dilated {
             let square = Rect::from_center_size(at, vec2(DILATED, DILATED));
-            painter.rect_filled(square, 0, colour);
+            painter.rect_filled(square, 0, colour(hole.class));
             continue;
         }
-        // One ring for neighbours in a row.
-        let [x, y] = hole.pixel;
-        let goes_on = last.is_some_and(|[lx, ly]| ly == y && lx + 1 == x);
-        last = Some(hole.pixel);
-        if !goes_on {
-            painter.circle_stroke(at, RADIUS, Stroke::new(1.5, colour));
+        match runs.last_mut() {
+            Some(run) if run.goes_on(hole) => (run.last, run.to) = (hole.pixel, at),
+            _ => runs.push(Run { class: hole.class, last: hole.pixel, from: at, to: at }),
+        }
+    }
+    for run in runs {
+        let ink = colour(run.class);
+        if run.from.distance(run.to) > LONGEST {
+            painter.line_segment([run.from, run.to], Stroke::new(1.0, ink.gamma_multiply(0.7)));
+        } else {
+            let centre = run.from + (run.to - run.from) / 2.0;
+            painter.circle_stroke(centre, RADIUS, Stroke::new(1.5, ink));
         }
     }
     let font = FontId::proportional(size::BODY);
@@ -62,8 +85,8 @@ pub(super) fn summary(found: &PinHoles) -> String {
     let parts: Vec<String> = CLASSES
         .into_iter()
         .map(|(class, name, _)| (found.count(class), name))
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, name)| format!("{count} {name}"))
+        .filter(|(number, _)| *number > 0)
+        .map(|(number, name)| format!("{} {name}", count(number)))
         .collect();
     match parts.as_slice() {
         [] => "No pin holes".to_owned(),
