@@ -39,6 +39,31 @@ fn fields(value: &Value, path: &str, found: &mut BTreeSet<String>) {
     }
 }
 
+/// Holds `report`, which has the fields `found`, against the schema.
+fn fits_the_schema(report: &Value, found: &BTreeSet<String>) {
+    let schema: Value = serde_json::from_str(include_str!("../../docs/check.schema.json")).unwrap();
+    assert_eq!(misfits(report, &schema, &schema), Vec::<String>::new());
+    // Every field that is written is in the schema, and what is not allowed does not fit.
+    let text = schema.to_string();
+    for name in found.iter().filter_map(|path| path.rsplit('.').next()) {
+        assert!(text.contains(&format!("\"{name}\":")), "{name} is not in the schema");
+    }
+    let broken = |change: &dyn Fn(&mut Value)| {
+        let mut report = report.clone();
+        change(&mut report);
+        misfits(&report, &schema, &schema)
+    };
+    assert!(!broken(&|r| r["version"] = 2.into()).is_empty());
+    assert!(!broken(&|r| r["gaps"]["maximum_mm"] = "much".into()).is_empty());
+    assert!(!broken(&|r| r["findings"][0]["gap"]["between"] = Value::Array(vec![])).is_empty());
+    assert!(!broken(&|r| r["findings"][0]["sides"][0]["face"] = 0.into()).is_empty());
+    let (_, out, _) = check(&["no/such/file.igs", &own("bounded_143_hole.igs")]);
+    for line in out.lines() {
+        let line: Value = serde_json::from_str(line).unwrap();
+        assert_eq!(misfits(&line, &schema, &schema), Vec::<String>::new());
+    }
+}
+
 #[test]
 fn every_field_is_in_the_description_and_has_its_type() {
     let (code, out, _) = check(&["demo", "--json", "-", "--tolerance", "1nm"]);
@@ -67,35 +92,7 @@ fn every_field_is_in_the_description_and_has_its_type() {
     for finding in report["findings"].as_array().unwrap() {
         assert_eq!(finding["gap"].is_null(), finding["sides"].as_array().unwrap().len() == 1);
     }
-}
-
-#[test]
-fn every_line_fits_the_schema_and_the_schema_says_all() {
-    let schema: Value = serde_json::from_str(include_str!("../../docs/check.schema.json")).unwrap();
-    let (_, out, _) = check(&["demo", "--json", "-", "--tolerance", "1nm"]);
-    let report: Value = serde_json::from_str(&out).unwrap();
-    assert_eq!(misfits(&report, &schema, &schema), Vec::<String>::new());
-    // Every field that is written is in the schema, and what is not allowed does not fit.
-    let text = schema.to_string();
-    let mut found = BTreeSet::new();
-    fields(&report, "", &mut found);
-    for name in found.iter().filter_map(|path| path.rsplit('.').next()) {
-        assert!(text.contains(&format!("\"{name}\":")), "{name} is not in the schema");
-    }
-    let broken = |change: &dyn Fn(&mut Value)| {
-        let mut report = report.clone();
-        change(&mut report);
-        misfits(&report, &schema, &schema)
-    };
-    assert!(!broken(&|r| r["version"] = 2.into()).is_empty());
-    assert!(!broken(&|r| r["gaps"]["maximum_mm"] = "much".into()).is_empty());
-    assert!(!broken(&|r| r["findings"][0]["gap"]["between"] = Value::Array(vec![])).is_empty());
-    assert!(!broken(&|r| r["findings"][0]["sides"][0]["face"] = 0.into()).is_empty());
-    let (_, out, _) = check(&["no/such/file.igs", &own("bounded_143_hole.igs")]);
-    for line in out.lines() {
-        let line: Value = serde_json::from_str(line).unwrap();
-        assert_eq!(misfits(&line, &schema, &schema), Vec::<String>::new());
-    }
+    fits_the_schema(&report, &found);
 }
 
 #[test]

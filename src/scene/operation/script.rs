@@ -48,11 +48,12 @@ pub fn parse(text: &str) -> Result<Vec<Operation>, ScriptError> {
     };
     let steps = spans::elements(text, 0..text.len()).map_err(syntax)?;
     let read = |(number, range): (usize, std::ops::Range<usize>)| {
-        let (line, _) = spans::line_and_column(text, range.start);
+        let start = range.start;
         let members = spans::members(text, range).map_err(syntax)?;
+        // Lines are counted for errors only: counting them for each step would take the square of their number.
         let fail = |op: &str, field: &str, reason: String| ScriptError::Step {
             step: number + 1,
-            line,
+            line: spans::line_and_column(text, start).0,
             op: op.into(),
             field: field.into(),
             reason,
