@@ -1,22 +1,25 @@
 //! The true distance between a mesh and the exact faces, by dense samples.
 //!
-//! From the mesh: points of every triangle, each against the nearest point of its face's surface, found by Newton's method
-//! from the triangle's own parameters. From the face: points of its surface inside the trims against the nearest triangle
-//! of its mesh. What is found is a lower bound of the true distance that tends to it with more samples.
+//! From the mesh: points of every triangle against the trimmed face: the nearest point of its surface, found by Newton's
+//! method from the triangle's own parameters, or where that lies outside the trims the nearest point of the outline. From the
+//! face: points inside the trims and of the outline against the nearest triangle. A distance counts only after the whole
+//! surface was searched for a nearer point, so that what is found is a lower bound of the true distance, which tends to it
+//! with more samples.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::model_mesh::ModelMesh;
 use crate::kernel::face::{Face, Side};
-use crate::kernel::query::BoundsTree;
-use crate::kernel::tessellate::{FaceMesh, Ground};
+use crate::kernel::query::{BoundsTree, closest_on_surface};
+use crate::kernel::tessellate::line_error::distance_to_segment;
+use crate::kernel::tessellate::{FaceMesh, Ground, Outline};
 use crate::kernel::view::Bounds;
 
 /// Distances between a mesh and a model.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
 pub struct Distance {
-    /// Largest distance from a point of the mesh to the surface.
+    /// Largest distance from a point of the mesh to the trimmed face.
     pub mesh_to_surface: f64,
     /// Largest distance from a point of a face to its mesh.
     pub surface_to_mesh: f64,
@@ -30,7 +33,8 @@ impl Distance {
         self.mesh_to_surface.max(self.surface_to_mesh)
     }
 
-    fn join(self, other: Self) -> Self {
+    /// The distance of two meshes from two faces together.
+    pub fn join(self, other: Self) -> Self {
         Self {
             mesh_to_surface: self.mesh_to_surface.max(other.mesh_to_surface),
             surface_to_mesh: self.surface_to_mesh.max(other.surface_to_mesh),
@@ -42,16 +46,27 @@ impl Distance {
 /// Measures `mesh` against `faces` with about `density` samples along each edge of a triangle, at most
 /// `most_per_face` from each side of a face.
 pub fn measure(faces: &[Option<&Face>], mesh: &ModelMesh, density: usize, most_per_face: usize) -> Distance {
+    let each = measure_each(faces, mesh, density, most_per_face);
+    each.into_iter().flatten().fold(Distance::default(), Distance::join)
+}
+
+/// The same face by face; `None` for those without a mesh.
+pub fn measure_each(
+    faces: &[Option<&Face>],
+    mesh: &ModelMesh,
+    density: usize,
+    most_per_face: usize,
+) -> Vec<Option<Distance>> {
     faces
         .par_iter()
         .zip(&mesh.faces)
-        .filter_map(|(face, mesh)| Some(measure_face((*face)?, mesh.as_ref().ok()?, density, most_per_face)))
-        .reduce(Distance::default, Distance::join)
+        .map(|(face, mesh)| Some(measure_face((*face)?, mesh.as_ref().ok()?, density, most_per_face)))
+        .collect()
 }
 
 /// The same for one face.
 pub fn measure_face(face: &Face, mesh: &FaceMesh, density: usize, most: usize) -> Distance {
-    let ground = Ground::new(face);
+    let target = Target::new(face);
     let mut distance = Distance::default();
     let boxes: Vec<Bounds> =
         mesh.triangles.iter().map(|t| Bounds::of(t.map(|v| mesh.positions[v as usize]))).collect();
@@ -66,31 +81,106 @@ pub fn measure_face(face: &Face, mesh: &FaceMesh, density: usize, most: usize) -
                 let l = [i as f64, j as f64, (density - i - j) as f64].map(|x| x / density as f64);
                 let at = p[0] * l[0] + p[1] * l[1] + p[2] * l[2];
                 let start = uv[0] * l[0] + uv[1] * l[1] + uv[2] * l[2];
-                let (foot, off) = project(&ground, at, start);
-                distance.mesh_to_surface = distance.mesh_to_surface.max(off);
+                let (foot, off) = target.offer(at, start, &mut distance.mesh_to_surface);
                 distance.samples += 1;
                 // The surface's own points near the foot against the mesh.
                 if face.classify_native(foot.x, foot.y) == Side::In {
-                    let off = to_mesh(mesh, &tree, ground.point(foot), off.max(1e-300) * 1.0001);
+                    let off = to_mesh(mesh, &tree, target.ground.point(foot), off.max(1e-300) * 1.0001);
                     distance.surface_to_mesh = distance.surface_to_mesh.max(off);
                 }
             }
         }
     }
+    let about = |d: &Distance| d.surface_to_mesh.max(d.mesh_to_surface).max(1e-9);
     let side =
         ((most as f64).sqrt() as usize).clamp(4, 40 + 2 * (mesh.triangles.len() as f64).sqrt() as usize);
     for k in 0..side * side {
         let share = DVec2::new((k % side) as f64 + 0.5, (k / side) as f64 + 0.5) / side as f64;
         let uv = face.domain.native(share);
         if face.classify_native(uv.x, uv.y) == Side::In {
-            let p = ground.point(uv);
-            let off =
-                to_mesh(mesh, &tree, p, distance.surface_to_mesh.max(distance.mesh_to_surface).max(1e-9));
+            let off = to_mesh(mesh, &tree, target.ground.point(uv), about(&distance));
             distance.surface_to_mesh = distance.surface_to_mesh.max(off);
             distance.samples += 1;
         }
     }
+    let skip = (target.points.len() / most.max(1)).max(1);
+    for p in target.points.iter().step_by(skip) {
+        let off = to_mesh(mesh, &tree, *p, about(&distance));
+        distance.surface_to_mesh = distance.surface_to_mesh.max(off);
+        distance.samples += 1;
+    }
     distance
+}
+
+/// A trimmed face to measure from: its surface and its outline as a fine polyline.
+struct Target<'a> {
+    face: &'a Face,
+    ground: Ground<'a>,
+    /// Points of the outline.
+    points: Vec<DVec3>,
+    /// Segments of the outline by their ends.
+    segments: Vec<[DVec3; 2]>,
+    tree: BoundsTree,
+}
+
+/// Segments of a piece of the outline.
+const SEGMENTS: usize = 24;
+
+impl<'a> Target<'a> {
+    fn new(face: &'a Face) -> Self {
+        let ground = Ground::new(face);
+        let outline = Outline::new(face, &ground, 1e-6 * face.bounds.diagonal());
+        let (mut points, mut segments) = (Vec::new(), Vec::new());
+        for piece in outline.runs().flat_map(|(_, _, run)| &run.pieces) {
+            let curve = &piece.space;
+            let count = if curve.degree() == 1 { 2 } else { SEGMENTS };
+            let at: Vec<DVec3> = (0..=count).map(|k| curve.point(k as f64 / count as f64)).collect();
+            segments.extend(at.windows(2).map(|w| [w[0], w[1]]));
+            points.extend(&at[..count]);
+        }
+        let boxes: Vec<Bounds> = segments.iter().map(|s| Bounds::of(*s)).collect();
+        let tree = BoundsTree::new(&boxes);
+        Self { face, ground, points, segments, tree }
+    }
+
+    /// Foot of `p` on the surface, searched from `start`, and its distance. Raises `most` to the distance of `p` from the
+    /// trimmed face.
+    fn offer(&self, p: DVec3, start: DVec2, most: &mut f64) -> (DVec2, f64) {
+        let (mut foot, mut off) = project(&self.ground, p, start);
+        let outside = |foot: DVec2| self.face.classify_native(foot.x, foot.y) != Side::In;
+        if !(off > *most || outside(foot)) {
+            return (foot, off);
+        }
+        let mut from_face = if outside(foot) { off.max(self.from_outline(p)) } else { off };
+        if from_face > *most {
+            if let Some(nearest) = closest_on_surface(&self.face.patches, p)
+                && nearest.distance < off
+            {
+                (foot, off) = (nearest.uv, nearest.distance);
+                from_face = if outside(foot) { off.max(self.from_outline(p)) } else { off };
+            }
+            *most = most.max(from_face);
+        }
+        (foot, off)
+    }
+
+    /// Distance of `p` from the outline, a hair more than the true one where that bends.
+    fn from_outline(&self, p: DVec3) -> f64 {
+        let size = self.tree.bounds().diagonal();
+        let mut reach = 1e-6 * size;
+        while reach <= 4.0 * size {
+            let mut best = f64::INFINITY;
+            self.tree.within(p, reach, |k| {
+                let [a, b] = self.segments[k];
+                best = best.min(distance_to_segment(p, a, b));
+            });
+            if best <= reach {
+                return best;
+            }
+            reach *= 4.0;
+        }
+        0.0
+    }
 }
 
 /// Foot of `p` on the surface, going downhill from `start`; and the distance.
@@ -152,6 +242,5 @@ fn to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
             return normal.dot(ap).abs() / squared.sqrt();
         }
     }
-    use crate::kernel::tessellate::line_error::distance_to_segment;
     distance_to_segment(p, a, b).min(distance_to_segment(p, b, c)).min(distance_to_segment(p, c, a))
 }

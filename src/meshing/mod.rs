@@ -10,5 +10,5 @@ pub mod measure;
 pub mod model_mesh;
 pub mod seams;
 
-pub use measure::{Distance, measure};
+pub use measure::{Distance, measure, measure_each, measure_face};
 pub use model_mesh::{ModelMesh, Work, mesh_faces, remesh_faces};

@@ -1,156 +1,137 @@
-//! A proven bound of the distance between a triangle and the surface over it.
+//! A proven bound of the distance between the surface over a triangle of parameters and the plane of its corners.
 //!
-//! For a patch `A / w` and the linear map M through the triangle's corners, `N = A - w M` vanishes at the corners. With
-//! constant second derivatives `N = -1/2 sum_ij l_i l_j N''[e_ij, e_ij]` in barycentric coordinates l and edges e_ij; what
-//! the derivatives vary over the triangle's box adds an eighth of it per squared extent (Filip, Magedson & Markot 1986).
-//! Ranges of derivatives are boxes around differences of control points of parts of patches. Lines between patches that are not smooth add the jump of the derivative. So the bound holds for
-//! rational surfaces and tends to the true distance as triangles shrink.
+//! For a patch `A / w`, a plane through `p` with the normal `n`: `F = n . (A - w p)` is a polynomial whose Bernstein
+//! coefficients on the triangle's box are at hand, so that nothing is lost to how the surface runs within the plane. With
+//! constant second derivatives `F = linear - 1/2 sum_ij l_i l_j F''[e_ij, e_ij]` in barycentric coordinates l and edges
+//! e_ij; what they vary over the box adds an eighth of it per squared extent (Filip, Magedson & Markot 1986). Where that
+//! does not decide, the triangle is divided into four and bounded again against the same plane. Lines between
+//! patches that are not smooth add the jump of the derivative. So the bound holds for rational surfaces and tends to the
+//! true distance.
 
 use glam::{DVec2, DVec3, DVec4};
 
 use super::outline::Ground;
 use crate::kernel::bezier::BezierPatch;
+use crate::kernel::query::Sheet;
 
-/// Error of a triangle or chord and where to divide it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TriangleError {
-    /// Bound of the distance.
-    pub error: f64,
-    /// Shares of the error that edge k (from corner k to the next) brings in.
-    pub edges: [f64; 3],
-    /// The edge, and where on it (0 to 1), that crosses a crease which matters.
-    pub crease: Option<(usize, f64)>,
+/// A plane: a point of it and the unit normal.
+pub type Supporting = (DVec3, DVec3);
+
+/// Part of a patch: homogeneous control points about the face's origin.
+struct Net {
+    degrees: [usize; 2],
+    points: Vec<DVec4>,
+    /// Native extent.
+    size: DVec2,
 }
 
-/// Range of a derivative: a ball for the point part, an interval for the weight.
-#[derive(Debug, Clone, Copy, Default)]
-struct Range {
-    middle: DVec4,
-    radius: f64,
-    weight_radius: f64,
-}
-
-impl Range {
-    fn around(values: impl Iterator<Item = DVec4>) -> Self {
-        let (mut low, mut high) = (DVec4::INFINITY, DVec4::NEG_INFINITY);
-        for v in values {
-            low = low.min(v);
-            high = high.max(v);
-        }
-        if !low.is_finite() {
-            // Of a degree too low to have this derivative.
-            return Self::default();
-        }
-        let half = 0.5 * (high - low);
-        Self { middle: 0.5 * (low + high), radius: half.truncate().length(), weight_radius: half.w }
-    }
-}
-
-/// A part of a patch with the ranges of its derivatives in native parameters.
-struct Part {
-    origin: DVec3,
-    uu: Range,
-    uv: Range,
-    vv: Range,
-    /// First derivatives of the weight: middle and radius, in u and in v.
-    weight_u: (f64, f64),
-    weight_v: (f64, f64),
-    least_weight: f64,
-    /// Bounds of the lengths of the first derivatives.
-    slopes: DVec2,
-}
-
-impl Part {
-    fn new(patch: &BezierPatch) -> Self {
+impl Net {
+    /// The part of `patch` over native `low..high`.
+    fn new(patch: &BezierPatch, origin: DVec3, low: DVec2, high: DVec2) -> Self {
         let (m, n) = (patch.degree_u, patch.degree_v);
-        let origin = patch.bounds().centre();
-        let net: Vec<DVec4> =
-            patch.points.iter().zip(&patch.weights).map(|(p, w)| ((*p - origin) * *w).extend(*w)).collect();
-        let at = |i: usize, j: usize| net[i * (n + 1) + j];
-        let grid =
-            |rows: usize, columns: usize| (0..rows).flat_map(move |i| (0..columns).map(move |j| (i, j)));
-        let size = patch.uv_max - patch.uv_min;
-        let (mf, nf) = (m as f64, n as f64);
-        let second_u = mf * (mf - 1.0) / (size.x * size.x);
-        let second_v = nf * (nf - 1.0) / (size.y * size.y);
-        let mixed = mf * nf / (size.x * size.y);
-        let uu = grid((m + 1).saturating_sub(2), n + 1)
-            .map(|(i, j)| (at(i + 2, j) - 2.0 * at(i + 1, j) + at(i, j)) * second_u);
-        let vv = grid(m + 1, (n + 1).saturating_sub(2))
-            .map(|(i, j)| (at(i, j + 2) - 2.0 * at(i, j + 1) + at(i, j)) * second_v);
-        let uv = grid(m, n).map(|(i, j)| (at(i + 1, j + 1) - at(i + 1, j) - at(i, j + 1) + at(i, j)) * mixed);
-        let interval = |values: &mut dyn Iterator<Item = f64>| {
-            let (low, high) =
-                values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-            (0.5 * (low + high), 0.5 * (high - low))
-        };
-        let (uu, uv, vv) = (Range::around(uu), Range::around(uv), Range::around(vv));
-        let weight_u =
-            interval(&mut grid(m, n + 1).map(|(i, j)| (at(i + 1, j).w - at(i, j).w) * mf / size.x));
-        let weight_v =
-            interval(&mut grid(m + 1, n).map(|(i, j)| (at(i, j + 1).w - at(i, j).w) * nf / size.y));
-        let least_weight = patch.weights.iter().copied().fold(f64::INFINITY, f64::min);
-        // |S'| <= (|A'| + |w'| |S|) / w, all from the part's middle.
-        let reach = patch.points.iter().map(|p| p.distance(origin)).fold(0.0, f64::max);
-        let slope = |d: &mut dyn Iterator<Item = DVec4>| {
-            d.map(|h| h.truncate().length() + h.w.abs() * reach).fold(0.0, f64::max) / least_weight
-        };
-        let slopes = DVec2::new(
-            slope(&mut grid(m, n + 1).map(|(i, j)| (at(i + 1, j) - at(i, j)) * (mf / size.x))),
-            slope(&mut grid(m + 1, n).map(|(i, j)| (at(i, j + 1) - at(i, j)) * (nf / size.y))),
-        );
-        Self { origin, uu, uv, vv, weight_u, weight_v, least_weight, slopes }
+        let home = patch.points.iter().zip(&patch.weights);
+        let mut points: Vec<DVec4> = home.map(|(p, w)| ((*p - origin) * *w).extend(*w)).collect();
+        let a = patch.local(low).clamp(DVec2::ZERO, DVec2::ONE);
+        let b = patch.local(high).clamp(a, DVec2::ONE);
+        for row in 0..=m {
+            cut(&mut points, row * (n + 1), 1, n + 1, (a.y, b.y));
+        }
+        for column in 0..=n {
+            cut(&mut points, column, n + 1, m + 1, (a.x, b.x));
+        }
+        Self { degrees: [m, n], points, size: high - low }
+    }
+
+    fn weights(&self) -> (f64, f64) {
+        let all = self.points.iter().map(|h| h.w);
+        all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), w| (a.min(w), b.max(w)))
     }
 }
 
-/// A patch cut into equal parts.
-struct Parts {
-    min: DVec2,
-    max: DVec2,
-    counts: [usize; 2],
-    /// Part `(i, j)` is number `i * counts[1] + j`.
-    parts: Vec<Part>,
+/// Control points of the part `from..to` of a curve whose points stand `stride` apart.
+fn cut(points: &mut [DVec4], start: usize, stride: usize, count: usize, (from, to): (f64, f64)) {
+    let at = |i: usize| start + i * stride;
+    if to < 1.0 {
+        for r in 1..count {
+            for i in (r..count).rev() {
+                points[at(i)] = points[at(i - 1)].lerp(points[at(i)], to);
+            }
+        }
+    }
+    if from > 0.0 && to > 0.0 {
+        let t = from / to;
+        for r in 1..count {
+            for i in 0..count - r {
+                points[at(i)] = points[at(i)].lerp(points[at(i + 1)], t);
+            }
+        }
+    }
 }
 
-impl Parts {
-    fn new(patch: &BezierPatch, finest: usize) -> Self {
-        // Second derivatives of polynomials of low degree do not vary.
-        let count = |degree: usize, other: usize| match degree {
-            _ if patch.is_rational() => {
-                if degree > 1 || other > 1 {
-                    finest
-                } else {
-                    1
+/// Ranges of the second derivatives of a scalar over a box, native parameters: uu, uv, vv.
+struct Curvature {
+    low: DVec3,
+    high: DVec3,
+    /// Largest value of a control point over its weight.
+    hull: f64,
+}
+
+impl Curvature {
+    /// Of `functional` applied to homogeneous points.
+    fn new(nets: &[Net], functional: DVec4) -> Self {
+        let mut result = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, hull: 0.0 };
+        let mut values = Vec::new();
+        for net in nets {
+            let [m, n] = net.degrees;
+            values.clear();
+            values.extend(net.points.iter().map(|h| functional.dot(*h)));
+            let at = |i: usize, j: usize| values[i * (n + 1) + j];
+            for (value, h) in values.iter().zip(&net.points) {
+                result.hull = result.hull.max(value.abs() / h.w);
+            }
+            let (mf, nf) = (m as f64, n as f64);
+            let unit = net.size * net.size;
+            let mut ranges = [(f64::INFINITY, f64::NEG_INFINITY); 3];
+            let mut note = |k: usize, x: f64| ranges[k] = (ranges[k].0.min(x), ranges[k].1.max(x));
+            for i in 0..=m {
+                for j in 0..=n {
+                    if i + 2 <= m {
+                        note(0, at(i + 2, j) - 2.0 * at(i + 1, j) + at(i, j));
+                    }
+                    if i < m && j < n {
+                        note(1, at(i + 1, j + 1) - at(i + 1, j) - at(i, j + 1) + at(i, j));
+                    }
+                    if j + 2 <= n {
+                        note(2, at(i, j + 2) - 2.0 * at(i, j + 1) + at(i, j));
+                    }
                 }
             }
-            0..=1 if other <= 2 => 1,
-            2 if other <= 1 => 1,
-            _ => finest,
-        };
-        let counts = [count(patch.degree_u, patch.degree_v), count(patch.degree_v, patch.degree_u)];
-        let at = |i: usize, j: usize| DVec2::new(i as f64 / counts[0] as f64, j as f64 / counts[1] as f64);
-        let mut parts = Vec::with_capacity(counts[0] * counts[1]);
-        for i in 0..counts[0] {
-            for j in 0..counts[1] {
-                parts.push(Part::new(&patch.restrict(at(i, j), at(i + 1, j + 1))));
+            let factor = [
+                mf * (mf - 1.0) / unit.x,
+                mf * nf / (net.size.x * net.size.y),
+                nf * (nf - 1.0) / unit.y,
+            ];
+            for k in 0..3 {
+                // Of a degree too low to have this derivative: none.
+                let (low, high) = if ranges[k].0 <= ranges[k].1 { ranges[k] } else { (0.0, 0.0) };
+                result.low[k] = result.low[k].min(low * factor[k]);
+                result.high[k] = result.high[k].max(high * factor[k]);
             }
         }
-        Self { min: patch.uv_min, max: patch.uv_max, counts, parts }
+        result
     }
 
-    /// The parts that a box touches. Touching at a border does not count, unless the box has no width there.
-    fn within(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = &Part> {
-        let range = |k: usize| {
-            let step = (self.max[k] - self.min[k]) / self.counts[k] as f64;
-            let from = (low[k] - self.min[k]) / step;
-            let to = (high[k] - self.min[k]) / step;
-            let slack = if to - from > 1e-9 { 1e-12 } else { -1e-12 };
-            let first = (from + slack).floor().max(0.0) as usize;
-            let end = ((to - slack).ceil().max(0.0) as usize).max(first + 1).min(self.counts[k]);
-            first.min(self.counts[k])..end
-        };
-        let (rows, columns) = (range(0), range(1));
-        rows.flat_map(move |i| columns.clone().map(move |j| &self.parts[i * self.counts[1] + j]))
+    /// The second derivative along `d` in the middle of the ranges.
+    fn along(&self, d: DVec2) -> f64 {
+        let middle = 0.5 * (self.low + self.high);
+        middle.dot(DVec3::new(d.x * d.x, 2.0 * d.x * d.y, d.y * d.y))
+    }
+
+    /// What the rest of the ranges may add over a box.
+    fn slack(&self, extent: DVec2) -> f64 {
+        let half = 0.5 * (self.high - self.low);
+        let (x, y) = (extent.x, extent.y);
+        half.dot(DVec3::new(x * x, 2.0 * x * y, y * y)) / 8.0
     }
 }
 
@@ -167,66 +148,171 @@ struct Crease {
 }
 
 /// Bounds for the triangles of one face.
-pub struct Flatness {
-    patches: Vec<Parts>,
+pub struct Flatness<'a> {
+    sheet: Sheet<'a>,
+    ground: Ground<'a>,
     creases: Vec<Crease>,
+    origin: DVec3,
     domain: (DVec2, DVec2),
-    rational: bool,
 }
 
-/// Parts along a direction of a patch in which second derivatives vary, at most.
-const FINEST: usize = 8;
-/// Parts of all patches of a face, about.
-const MOST_PARTS: usize = 1024;
 /// Jumps below this part of the derivative are rounding.
 const SMOOTH: f64 = 1e-9;
+/// Divisions into four of a triangle, and into two of a chord, that bounds go down.
+const DEPTH: u32 = 3;
+const CHORD_DEPTH: u32 = 4;
 
-impl Flatness {
+impl<'a> Flatness<'a> {
     /// Prepares bounds over `ground`.
-    pub fn new(ground: &Ground) -> Self {
+    pub fn new(ground: &Ground<'a>) -> Self {
         let all = ground.patches();
-        let finest = ((MOST_PARTS / all.len().max(1)) as f64).sqrt() as usize;
-        let patches: Vec<Parts> = all.iter().map(|p| Parts::new(p, finest.clamp(1, FINEST))).collect();
-        let rational = all.iter().any(BezierPatch::is_rational);
-        let around = |(low, high): (DVec2, DVec2), p: &Parts| (low.min(p.min), high.max(p.max));
-        let domain = patches.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around);
-        Self { patches, creases: creases(ground), domain, rational }
+        let around = |(low, high): (DVec2, DVec2), p: &BezierPatch| (low.min(p.uv_min), high.max(p.uv_max));
+        let domain = all.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around);
+        let origin = all.first().map_or(DVec3::ZERO, |p| p.bounds().centre());
+        Self { sheet: ground.sheet.clone(), ground: ground.clone(), creases: creases(ground), origin, domain }
     }
 
-    /// Bound for the triangle of native `uv` whose corners lie at `p` on the surface.
-    pub fn triangle(&self, uv: [DVec2; 3], p: [DVec3; 3]) -> TriangleError {
-        let middle = (p[0] + p[1] + p[2]) / 3.0;
-        let edges = [0, 1, 2].map(|k| (uv[(k + 1) % 3] - uv[k], p[(k + 1) % 3] - p[k]));
-        let spread = p.iter().map(|q| q.distance(middle)).fold(0.0, f64::max);
-        let box_ = (uv[0].min(uv[1]).min(uv[2]), uv[0].max(uv[1]).max(uv[2]));
-        let ranges = self.over(box_, middle, spread, &edges);
-        let normal = edges[0].1.cross(-edges[2].1).normalize_or_zero();
-        let signed = ranges.curved.map(|d| d.dot(normal));
-        let across = [0, 1, 2].map(|k| (ranges.curved[k] - normal * signed[k]).length());
-        let up = largest(signed.map(|x| x.max(0.0)));
-        let down = largest(signed.map(|x| (-x).max(0.0)));
-        let error = 0.5 * up.max(down).hypot(largest(across)) + ranges.slack;
-        let extent = box_.1 - box_.0;
-        let error = finish(error, &ranges).min(ranges.slopes.dot(extent));
-        let crease = if ranges.kink * 4.0 > error * ranges.least_weight { self.cut(&uv, box_) } else { None };
-        TriangleError {
-            error,
-            edges: ranges.curved.map(|d| d.length() / (8.0 * ranges.least_weight)),
-            crease,
+    /// Bound of the distance of the surface over a triangle of native `uv` from a plane that its corners lie in. Stops as
+    /// soon as it is known to be above `limit`, or when halving further would cost more than it is worth.
+    pub fn triangle(&self, uv: [DVec2; 3], plane: Supporting, limit: f64) -> f64 {
+        self.part(uv, [0.0; 3], plane, limit, DEPTH)
+    }
+
+    fn part(&self, uv: [DVec2; 3], heights: [f64; 3], plane: Supporting, limit: f64, depth: u32) -> f64 {
+        let (low, high) = self.boxed(&uv);
+        let nets = self.nets(low, high);
+        let functional = plane.1.extend(-plane.1.dot(plane.0 - self.origin));
+        let curvature = Curvature::new(&nets, functional);
+        let bent = [0, 1, 2].map(|k| curvature.along(uv[(k + 1) % 3] - uv[k]));
+        let up = largest(bent.map(|x| x.max(0.0)));
+        let down = largest(bent.map(|x| (-x).max(0.0)));
+        let weights = weights(&nets);
+        let corners = heights.iter().fold(0.0f64, |m, h| m.max(h.abs())) * weights.1;
+        let (kink, feedback) = self.kinks(low, high);
+        let over = corners + 0.5 * up.max(down) + curvature.slack(high - low) + kink * weights.0;
+        let bound = finish(over / weights.0, feedback / weights.0).min(curvature.hull);
+        if bound <= limit || depth == 0 || bound.is_nan() {
+            return bound;
         }
+        let middles = [0, 1, 2].map(|k| 0.5 * (uv[k] + uv[(k + 1) % 3]));
+        let off = middles.map(|m| (self.ground.point(m) - plane.0).dot(plane.1));
+        let most = off.iter().fold(0.0f64, |m, h| m.max(h.abs()));
+        if !(most <= limit) {
+            return most.min(bound);
+        }
+        let parts = [
+            ([uv[0], middles[0], middles[2]], [heights[0], off[0], off[2]]),
+            ([middles[0], uv[1], middles[1]], [off[0], heights[1], off[1]]),
+            ([middles[2], middles[1], uv[2]], [off[2], off[1], heights[2]]),
+            ([middles[0], middles[1], middles[2]], off),
+        ];
+        let mut worst = 0.0f64;
+        for (uv, heights) in parts {
+            worst = worst.max(self.part(uv, heights, plane, limit, depth - 1));
+            if !(worst <= limit) {
+                break;
+            }
+        }
+        worst.min(bound)
     }
 
     /// Bound of the distance between the chord from `a` to `b` and the image of the straight line between their
-    /// parameters.
-    pub fn chord(&self, uv: [DVec2; 2], p: [DVec3; 2]) -> f64 {
-        let middle = 0.5 * (p[0] + p[1]);
-        let along = p[1] - p[0];
-        let edges = [(uv[1] - uv[0], along)];
-        let box_ = (uv[0].min(uv[1]), uv[0].max(uv[1]));
-        let ranges = self.over(box_, middle, 0.5 * along.length(), &edges);
-        let direction = along.normalize_or_zero();
-        let bent = ranges.curved[0] - direction * ranges.curved[0].dot(direction);
-        finish(bent.length() / 8.0 + ranges.slack, &ranges).min(ranges.slopes.dot(box_.1 - box_.0))
+    /// parameters; not followed further once it is known to be above `limit`.
+    pub fn chord(&self, uv: [DVec2; 2], p: [DVec3; 2], limit: f64) -> f64 {
+        let along = (p[1] - p[0]).normalize_or_zero();
+        let Some(x) = along.any_orthonormal_vector().try_normalize().filter(|_| along != DVec3::ZERO) else {
+            // A chord of no length: as far as the curve goes.
+            return self.ground.point(0.5 * (uv[0] + uv[1])).distance(p[0]);
+        };
+        self.piece(uv, [0.0; 2], p[0], [x, along.cross(x)], limit, CHORD_DEPTH)
+    }
+
+    fn piece(
+        &self,
+        uv: [DVec2; 2],
+        offsets: [f64; 2],
+        from: DVec3,
+        frame: [DVec3; 2],
+        limit: f64,
+        depth: u32,
+    ) -> f64 {
+        let (low, high) = self.boxed(&uv);
+        let nets = self.nets(low, high);
+        let weights = weights(&nets);
+        let [x, y] = frame.map(|axis| {
+            let found = Curvature::new(&nets, axis.extend(-axis.dot(from - self.origin)));
+            (found.along(uv[1] - uv[0]).abs() / 8.0 + found.slack(high - low), found.hull)
+        });
+        let (kink, feedback) = self.kinks(low, high);
+        let corners = offsets[0].max(offsets[1]) * weights.1;
+        let over = corners + x.0.hypot(y.0) + kink * weights.0;
+        let bound = finish(over / weights.0, feedback / weights.0).min(x.1.hypot(y.1));
+        if bound <= limit || depth == 0 || bound.is_nan() {
+            return bound;
+        }
+        let middle = 0.5 * (uv[0] + uv[1]);
+        let d = self.ground.point(middle) - from;
+        let off = d.dot(frame[0]).hypot(d.dot(frame[1]));
+        if !(off <= limit) {
+            return off.min(bound);
+        }
+        let left = self.piece([uv[0], middle], [offsets[0], off], from, frame, limit, depth - 1);
+        if !(left <= limit) {
+            return left;
+        }
+        left.max(self.piece([middle, uv[1]], [off, offsets[1]], from, frame, limit, depth - 1)).min(bound)
+    }
+
+    fn boxed(&self, uv: &[DVec2]) -> (DVec2, DVec2) {
+        let low = uv.iter().fold(DVec2::INFINITY, |a, b| a.min(*b));
+        let high = uv.iter().fold(DVec2::NEG_INFINITY, |a, b| a.max(*b));
+        // Rounding may put vertices a hair outside of all patches.
+        (low.clamp(self.domain.0, self.domain.1), high.clamp(self.domain.0, self.domain.1))
+    }
+
+    /// The parts of patches over a box.
+    fn nets(&self, low: DVec2, high: DVec2) -> Vec<Net> {
+        let range = |lines: &[f64], from: f64, to: f64| {
+            let cells = lines.len().saturating_sub(1);
+            let first = lines.partition_point(|x| *x <= from).saturating_sub(1).min(cells.saturating_sub(1));
+            let end = lines.partition_point(|x| *x < to).min(cells).max(first + 1);
+            first..end
+        };
+        let (us, vs) = (self.sheet.u_lines(), self.sheet.v_lines());
+        let mut nets = Vec::with_capacity(1);
+        for i in range(us, low.x, high.x) {
+            for j in range(vs, low.y, high.y) {
+                let Some(patch) = self.sheet.cell(i, j) else { continue };
+                let from = low.max(DVec2::new(us[i], vs[j]));
+                let to = high.min(DVec2::new(us[i + 1], vs[j + 1])).max(from);
+                nets.push(Net::new(patch, self.origin, from, to));
+            }
+        }
+        nets
+    }
+
+    /// What creases across a box add to the distance, and to itself through jumps of the weight's derivative.
+    fn kinks(&self, low: DVec2, high: DVec2) -> (f64, f64) {
+        let (mut kink, mut feedback) = (0.0, 0.0);
+        for crease in &self.creases {
+            let (other, x) = (1 - crease.axis, crease.at);
+            let (below, above) = (x - low[crease.axis], high[crease.axis] - x);
+            if below > 0.0 && above > 0.0 && crease.from < high[other] && crease.to > low[other] {
+                let reach = below * above / (below + above);
+                kink += crease.jump * reach;
+                feedback += crease.weight_jump * reach;
+            }
+        }
+        (kink, feedback)
+    }
+
+    /// Where a triangle is crossed by creases of the surface that bring in more than `limit`.
+    pub fn crossed(&self, uv: &[DVec2; 3], limit: f64) -> Option<(usize, f64)> {
+        if self.creases.iter().all(|c| c.jump <= 0.0) {
+            return None;
+        }
+        let (low, high) = self.boxed(uv);
+        if self.kinks(low, high).0 > limit { self.cut(uv, (low, high)) } else { None }
     }
 
     /// The edge of a triangle that is crossed most in the middle by a crease of the surface, and where.
@@ -251,80 +337,17 @@ impl Flatness {
         }
         best.map(|b| b.1)
     }
-
-    /// Second derivatives of N along up to three edges over a box, with all that may add to them.
-    fn over(
-        &self,
-        (low, high): (DVec2, DVec2),
-        middle: DVec3,
-        spread: f64,
-        edges: &[(DVec2, DVec3)],
-    ) -> Ranges {
-        // Rounding may put vertices a hair outside of all patches.
-        let (low, high) = (low.clamp(self.domain.0, self.domain.1), high.clamp(self.domain.0, self.domain.1));
-        let extent = high - low;
-        let mut result = Ranges { least_weight: f64::INFINITY, ..Ranges::default() };
-        let longest = edges.iter().map(|e| e.1.length()).fold(0.0, f64::max);
-        let mut hull = [(DVec3::INFINITY, DVec3::NEG_INFINITY); 3];
-        let mut found: Vec<([DVec3; 3], f64)> = Vec::new();
-        for patch in &self.patches {
-            let apart = |k: usize| {
-                patch.max[k] <= low[k] && patch.max[k] < high[k]
-                    || patch.min[k] >= high[k] && patch.min[k] > low[k]
-            };
-            if apart(0) || apart(1) || (patch.max.cmplt(low) | patch.min.cmpgt(high)).any() {
-                continue;
-            }
-            for part in patch.within(low, high) {
-                let (curved, slack) = part.along(edges, extent, (middle, spread, longest), self.rational);
-                result.least_weight = result.least_weight.min(part.least_weight);
-                result.slopes = result.slopes.max(part.slopes);
-                for (hull, d) in hull.iter_mut().zip(curved) {
-                    *hull = (hull.0.min(d), hull.1.max(d));
-                }
-                found.push((curved, slack));
-            }
-        }
-        if found.is_empty() {
-            return Ranges { least_weight: 1.0, slack: f64::INFINITY, slopes: DVec2::INFINITY, ..result };
-        }
-        result.curved = hull.map(|(a, b)| 0.5 * (a + b));
-        for (curved, slack) in &found {
-            let off = (0..edges.len()).map(|k| curved[k].distance(result.curved[k])).fold(0.0, f64::max);
-            // Edges' derivatives determine the form; each adds at most a sixth of its change.
-            result.slack = result.slack.max(slack + 0.5 * off);
-        }
-        for crease in &self.creases {
-            let (other, x) = (1 - crease.axis, crease.at);
-            let (below, above) = (x - low[crease.axis], high[crease.axis] - x);
-            if below > 0.0 && above > 0.0 && crease.from < high[other] && crease.to > low[other] {
-                let reach = below * above / (below + above);
-                let kink = crease.jump * reach * result.least_weight;
-                result.slack += kink;
-                result.kink += kink;
-                result.feedback += crease.weight_jump * reach;
-            }
-        }
-        result
-    }
 }
 
-#[derive(Default)]
-struct Ranges {
-    /// Second derivative along each edge, in the middle of its range.
-    curved: [DVec3; 3],
-    slack: f64,
-    least_weight: f64,
-    /// Part of the error itself that weights' jumps add.
-    feedback: f64,
-    /// The part of `slack` that creases add.
-    kink: f64,
-    slopes: DVec2,
+/// Least and largest weight over some parts.
+fn weights(nets: &[Net]) -> (f64, f64) {
+    let all = nets.iter().map(Net::weights);
+    all.fold((f64::INFINITY, 0.0), |(a, b), (low, high)| (a.min(low), b.max(high)))
 }
 
-fn finish(error: f64, ranges: &Ranges) -> f64 {
-    let feedback = ranges.feedback / ranges.least_weight;
-    if feedback < 1.0 { error / ranges.least_weight / (1.0 - feedback) } else { f64::INFINITY }
+/// The distance that follows from a bound of which `feedback` times the distance itself is a part.
+fn finish(error: f64, feedback: f64) -> f64 {
+    if feedback < 1.0 { error / (1.0 - feedback) } else { f64::INFINITY }
 }
 
 /// The largest `sum_(i<j) l_i l_j a_ij` over barycentric coordinates: the squared radius of the smallest circle around a
@@ -334,44 +357,6 @@ fn largest(a: [f64; 3]) -> f64 {
     let most = a[0].max(a[1]).max(a[2]);
     let area = 2.0 * (a[0] * a[1] + a[1] * a[2] + a[2] * a[0]) - (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
     if most >= sum - most || area <= 0.0 { 0.25 * most } else { a[0] * a[1] * a[2] / area }
-}
-
-impl Part {
-    /// Second derivatives of N along `edges` and how much the rest may add to the bound.
-    fn along(
-        &self,
-        edges: &[(DVec2, DVec3)],
-        extent: DVec2,
-        (middle, spread, longest): (DVec3, f64, f64),
-        rational: bool,
-    ) -> ([DVec3; 3], f64) {
-        let offset = if rational { middle - self.origin } else { DVec3::ZERO };
-        let shift = |h: DVec4| h.truncate() - offset * h.w;
-        let (uu, uv, vv) = (shift(self.uu.middle), shift(self.uv.middle), shift(self.vv.middle));
-        let mut curved = [DVec3::ZERO; 3];
-        for (result, (d, p)) in curved.iter_mut().zip(edges) {
-            *result = uu * (d.x * d.x) + uv * (2.0 * d.x * d.y) + vv * (d.y * d.y);
-            if rational {
-                *result -= *p * (2.0 * (self.weight_u.0 * d.x + self.weight_v.0 * d.y));
-            }
-        }
-        let far = offset.length();
-        let vary = |r: &Range| {
-            if rational {
-                r.radius + far * r.weight_radius + (r.middle.w.abs() + r.weight_radius) * spread
-            } else {
-                r.radius
-            }
-        };
-        let (x, y) = (extent.x, extent.y);
-        let mut slack =
-            (vary(&self.uu) * x * x + 2.0 * vary(&self.uv) * x * y + vary(&self.vv) * y * y) / 8.0;
-        if rational {
-            // Half of twice the product of two deviations, each at most half its extent (3D: 1 / sqrt 3).
-            slack += 0.29 * (self.weight_u.1 * x + self.weight_v.1 * y) * longest;
-        }
-        (curved, slack)
-    }
 }
 
 /// The lines between patches across which the surface or its weight is not smooth.

@@ -36,7 +36,7 @@ pub struct Refinement<'a> {
     /// The surface.
     pub ground: &'a Ground<'a>,
     /// Proven bounds, when they are asked for.
-    pub flatness: Option<&'a Flatness>,
+    pub flatness: Option<&'a Flatness<'a>>,
     /// Whether the surface is flat, so that only angle and length count.
     pub planar: bool,
     /// The tolerance and the other limits.
@@ -220,7 +220,8 @@ impl Refinement<'_> {
         let gap = numbers.map(|n| p_gap(vertices, n)).into_iter().fold(0.0, f64::max);
         let tolerance = self.options.tolerance;
         let allowed = (tolerance - gap).max(0.5 * tolerance);
-        let (error, shares, crease) = self.error(uv, p);
+        let normals = numbers.map(|n| vertices.normals[n as usize]);
+        let Found { error, shares, crease } = self.error(uv, p, normals, allowed);
         let mut excess = error / allowed;
         let Some(bounds) = region.standing(corners) else { return };
         let mut divide = self.weakest(&bounds, shares, allowed, (vertices, &numbers), refined, excess > 1.0);
@@ -290,6 +291,7 @@ impl Refinement<'_> {
                     Some(flatness) => flatness.chord(
                         n.map(|n| vertices.uvs[n as usize]),
                         n.map(|n| vertices.on_surface[n as usize]),
+                        AT_FAULT * allowed,
                     ),
                     None => shares[k],
                 };
@@ -311,28 +313,55 @@ impl Refinement<'_> {
         }
     }
 
-    /// Error of a triangle, the shares of its edges, and where a crease crosses one of them.
-    fn error(&self, uv: [DVec2; 3], p: [DVec3; 3]) -> (f64, [f64; 3], Option<(usize, f64)>) {
+    /// Error of a triangle whose corners lie at `p` on the surface.
+    ///
+    /// What counts is the distance from the triangle's plane. Where the image of an edge leaves the triangle sideways its
+    /// neighbour lies under it, in a plane turned by about the turn of the normal within the triangle.
+    fn error(&self, uv: [DVec2; 3], p: [DVec3; 3], normals: [DVec3; 3], allowed: f64) -> Found {
         if self.planar {
-            return (0.0, [0.0; 3], None);
+            return Found::default();
         }
-        if let Some(flatness) = self.flatness {
-            let found = flatness.triangle(uv, p);
-            return (found.error, found.edges, found.crease);
-        }
-        let normal = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
-        let off = |at: DVec2| {
-            let d = self.ground.point(at) - p[0];
-            if normal == DVec3::ZERO { d.length() } else { d.dot(normal).abs() }
-        };
-        let edges = [0, 1, 2].map(|k| {
+        let edges = [0, 1, 2].map(|k| p[(k + 1) % 3] - p[k]);
+        let cross = edges[0].cross(-edges[2]);
+        let longest = edges.iter().map(|e| e.length_squared()).fold(0.0, f64::max);
+        let solid = cross.length() > 1e-9 * longest;
+        let normal =
+            if solid { cross.normalize_or_zero() } else { (normals[0] + normals[1] + normals[2]).normalize_or_zero() };
+        let turn = if solid { normals.map(|n| n.cross(normal).length()).into_iter().fold(0.0, f64::max) } else { 0.0 };
+        let mut sideways = 0.0f64;
+        let shares = [0, 1, 2].map(|k| {
             let to = (k + 1) % 3;
-            let d = self.ground.point(0.5 * (uv[k] + uv[to])) - 0.5 * (p[k] + p[to]);
-            if normal == DVec3::ZERO { d.length() } else { d.dot(normal).abs() }
+            let d = self.ground.point(0.5 * (uv[k] + uv[to])) - p[k];
+            let up = d.dot(normal).abs();
+            if solid {
+                let out = edges[k].cross(normal).normalize_or_zero();
+                let aside = d.dot(out).max(0.0);
+                sideways = sideways.max((2.0 * aside * turn).min(up.hypot(aside) - up));
+            }
+            up
         });
-        let middle = off((uv[0] + uv[1] + uv[2]) / 3.0);
-        (edges.into_iter().fold(middle, f64::max), edges, None)
+        let middle = (self.ground.point((uv[0] + uv[1] + uv[2]) / 3.0) - p[0]).dot(normal).abs();
+        let estimate = shares.into_iter().fold(middle, f64::max) + sideways;
+        let Some(flatness) = self.flatness else { return Found { error: estimate, shares, crease: None } };
+        let crease = if estimate > 0.25 * allowed { flatness.crossed(&uv, 0.25 * allowed) } else { None };
+        // Beside a triangle smaller than the tolerance nothing is far.
+        if !(estimate <= allowed) || longest.sqrt() < 0.1 * allowed {
+            return Found { error: estimate, shares, crease };
+        }
+        let proven = flatness.triangle(uv, (p[0], normal), allowed - sideways) + sideways;
+        Found { error: proven.max(estimate), shares, crease }
     }
+}
+
+/// What is known of a triangle.
+#[derive(Default)]
+struct Found {
+    /// Bound or estimate of its distance from the surface.
+    error: f64,
+    /// How far the surface is from it at the middles of its edges.
+    shares: [f64; 3],
+    /// The edge, and where on it (0 to 1), that crosses a crease which matters.
+    crease: Option<(usize, f64)>,
 }
 
 fn p_gap(vertices: &Vertices, n: u32) -> f64 {

@@ -38,7 +38,7 @@ pub struct Tessellator<'a> {
     ground: Ground<'a>,
     outline: Outline,
     plane: Option<Plane>,
-    flatness: Option<Flatness>,
+    flatness: Option<Flatness<'a>>,
     options: TessellationOptions,
     tolerance: f64,
 }
@@ -207,7 +207,7 @@ impl<'a> Tessellator<'a> {
                 for (index, pair) in samples.windows(2).enumerate() {
                     let uv = [pair[0].uv, pair[1].uv];
                     let p = uv.map(|uv| self.ground.point(uv));
-                    if flatness.chord(uv, p) > CHORD_LIMIT * self.tolerance
+                    if flatness.chord(uv, p, CHORD_LIMIT * self.tolerance) > CHORD_LIMIT * self.tolerance
                         && p[0].distance(p[1]) > 1e-3 * self.tolerance
                     {
                         long.push(LongChord { chain, run, index });
