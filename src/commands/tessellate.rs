@@ -14,9 +14,9 @@ use super::{output, source};
 use crate::exchange::mesh::{self, Group, PLAIN};
 use crate::inspect::Length;
 use crate::kernel::face::Face;
-use crate::kernel::tessellate::{TessellateError, TessellationOptions};
+use crate::kernel::tessellate::{FaceMesh, TessellateError, TessellationOptions};
 use crate::kernel::view::Bounds;
-use crate::meshing::{Distance, ModelMesh, Work, measure, mesh_faces};
+use crate::meshing::{Distance, ModelMesh, Work, measure_each, mesh_faces};
 use crate::scene::records::{FaceRecord, ModelRecord};
 
 /// A format that can be written.
@@ -49,8 +49,10 @@ pub struct Statistics {
     pub open_edges: usize,
     /// Distance between mesh and exact faces, measured at samples.
     pub measured: Distance,
-    /// Triangles that could not be brought within the tolerance.
+    /// Triangles that could not be proved to keep the tolerance.
     pub over_tolerance: usize,
+    /// Faces with such triangles, or measured beyond the tolerance.
+    pub unproved: Vec<Unproved>,
     /// Largest distance by which vertices were moved to close gaps between faces.
     pub gap: f64,
     /// Seconds to prepare faces.
@@ -59,6 +61,19 @@ pub struct Statistics {
     pub tessellate_s: f64,
 }
 
+/// A face whose error is not known to be within the tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Unproved {
+    /// Number of the face.
+    pub face: usize,
+    /// Triangles without a proof.
+    pub triangles: usize,
+    /// Largest distance between the face and its mesh that was found at samples.
+    pub measured: f64,
+}
+
+/// Faces without a proof that are listed; JSON has all.
+const LISTED: usize = 20;
 /// Samples along an edge when the error is measured, and of one face at most.
 const DENSITY: usize = 3;
 const SAMPLES: usize = 20_000;
@@ -193,6 +208,16 @@ pub fn statistics(
         open_edges += usize::from(same.len() == 1);
     }
     let left_out = mesh.faces.iter().enumerate();
+    let each = measure_each(faces, mesh, DENSITY, SAMPLES);
+    let doubt = |(k, m): (usize, &FaceMesh)| {
+        let (triangles, measured) = (m.quality.over_tolerance, each[k].map_or(0.0, |d| d.largest()));
+        (options.conservative && (triangles > 0 || measured > options.tolerance)).then_some(Unproved {
+            face: k + 1,
+            triangles,
+            measured,
+        })
+    };
+    let meshed = mesh.faces.iter().enumerate().filter_map(|(k, m)| Some((k, m.as_ref().ok()?)));
     Statistics {
         unit: model.unit.name.clone(),
         tolerance: options.tolerance,
@@ -202,7 +227,8 @@ pub fn statistics(
         triangles: mesh.triangle_count(),
         edges,
         open_edges,
-        measured: measure(faces, mesh, DENSITY, SAMPLES),
+        measured: each.iter().flatten().fold(Distance::default(), |all, d| all.join(*d)),
+        unproved: meshed.filter_map(doubt).collect(),
         over_tolerance: meshes().map(|m| m.quality.over_tolerance).sum(),
         gap: meshes().map(|m| m.quality.gap).fold(0.0, f64::max),
         prepare_s: 0.0,
@@ -252,9 +278,9 @@ fn tell(statistics: &Statistics, as_json: bool) -> io::Result<()> {
     let unit = &s.unit;
     writeln!(out, "faces       {} meshed, {} left out", s.faces, s.left_out.len())?;
     writeln!(out, "triangles   {} ({} edges, {} of them open)", s.triangles, s.edges, s.open_edges)?;
-    let kind = match (s.conservative, s.over_tolerance) {
-        (true, 0) => "guaranteed",
-        (true, _) => "guaranteed but for the triangles below",
+    let kind = match (s.conservative, s.unproved.is_empty()) {
+        (true, true) => "guaranteed",
+        (true, false) => "guaranteed but for the faces below",
         (false, _) => "estimated",
     };
     writeln!(out, "tolerance   {:.6} {unit}, {kind}", s.tolerance)?;
@@ -264,12 +290,15 @@ fn tell(statistics: &Statistics, as_json: bool) -> io::Result<()> {
         "true error  {:.6} {unit} mesh to surface, {:.6} {unit} surface to mesh ({} samples)",
         m.mesh_to_surface, m.surface_to_mesh, m.samples
     )?;
-    if s.over_tolerance > 0 {
+    for doubt in s.unproved.iter().take(LISTED) {
         writeln!(
             out,
-            "            {} triangles could not be proved to keep the tolerance",
-            s.over_tolerance
+            "            face {}: {} triangles not proved to keep the tolerance, {:.6} {unit} measured",
+            doubt.face, doubt.triangles, doubt.measured
         )?;
+    }
+    if s.unproved.len() > LISTED {
+        writeln!(out, "            and {} more faces (--json lists all)", s.unproved.len() - LISTED)?;
     }
     writeln!(out, "gaps        vertices moved by {:.3e} {unit} at most", s.gap)?;
     writeln!(out, "time        {:.3} s preparing faces, {:.3} s tessellating", s.prepare_s, s.tessellate_s)

@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::model_mesh::ModelMesh;
+use crate::kernel::bezier::BezierCurve3;
 use crate::kernel::face::{Face, Side};
 use crate::kernel::query::{BoundsTree, closest_on_surface};
 use crate::kernel::tessellate::line_error::distance_to_segment;
@@ -23,6 +24,9 @@ pub struct Distance {
     pub mesh_to_surface: f64,
     /// Largest distance from a point of a face to its mesh.
     pub surface_to_mesh: f64,
+    /// Where the larger of the two was found.
+    #[serde(skip)]
+    pub place: DVec3,
     /// Samples taken.
     pub samples: usize,
 }
@@ -33,9 +37,18 @@ impl Distance {
         self.mesh_to_surface.max(self.surface_to_mesh)
     }
 
+    fn note(&mut self, mesh_to_surface: f64, surface_to_mesh: f64, place: DVec3) {
+        if mesh_to_surface.max(surface_to_mesh) > self.largest() {
+            self.place = place;
+        }
+        self.mesh_to_surface = self.mesh_to_surface.max(mesh_to_surface);
+        self.surface_to_mesh = self.surface_to_mesh.max(surface_to_mesh);
+    }
+
     /// The distance of two meshes from two faces together.
     pub fn join(self, other: Self) -> Self {
         Self {
+            place: if other.largest() > self.largest() { other.place } else { self.place },
             mesh_to_surface: self.mesh_to_surface.max(other.mesh_to_surface),
             surface_to_mesh: self.surface_to_mesh.max(other.surface_to_mesh),
             samples: self.samples + other.samples,
@@ -81,12 +94,13 @@ pub fn measure_face(face: &Face, mesh: &FaceMesh, density: usize, most: usize) -
                 let l = [i as f64, j as f64, (density - i - j) as f64].map(|x| x / density as f64);
                 let at = p[0] * l[0] + p[1] * l[1] + p[2] * l[2];
                 let start = uv[0] * l[0] + uv[1] * l[1] + uv[2] * l[2];
-                let (foot, off) = target.offer(at, start, &mut distance.mesh_to_surface);
+                let (foot, off, from_face) = target.offer(at, start, distance.mesh_to_surface);
+                distance.note(from_face, 0.0, at);
                 distance.samples += 1;
                 // The surface's own points near the foot against the mesh.
                 if face.classify_native(foot.x, foot.y) == Side::In {
-                    let off = to_mesh(mesh, &tree, target.ground.point(foot), off.max(1e-300) * 1.0001);
-                    distance.surface_to_mesh = distance.surface_to_mesh.max(off);
+                    let p = target.ground.point(foot);
+                    distance.note(0.0, to_mesh(mesh, &tree, p, off.max(1e-300) * 1.0001), p);
                 }
             }
         }
@@ -98,15 +112,14 @@ pub fn measure_face(face: &Face, mesh: &FaceMesh, density: usize, most: usize) -
         let share = DVec2::new((k % side) as f64 + 0.5, (k / side) as f64 + 0.5) / side as f64;
         let uv = face.domain.native(share);
         if face.classify_native(uv.x, uv.y) == Side::In {
-            let off = to_mesh(mesh, &tree, target.ground.point(uv), about(&distance));
-            distance.surface_to_mesh = distance.surface_to_mesh.max(off);
+            let p = target.ground.point(uv);
+            distance.note(0.0, to_mesh(mesh, &tree, p, about(&distance)), p);
             distance.samples += 1;
         }
     }
     let skip = (target.points.len() / most.max(1)).max(1);
     for p in target.points.iter().step_by(skip) {
-        let off = to_mesh(mesh, &tree, *p, about(&distance));
-        distance.surface_to_mesh = distance.surface_to_mesh.max(off);
+        distance.note(0.0, to_mesh(mesh, &tree, *p, about(&distance)), *p);
         distance.samples += 1;
     }
     distance
@@ -118,68 +131,83 @@ struct Target<'a> {
     ground: Ground<'a>,
     /// Points of the outline.
     points: Vec<DVec3>,
-    /// Segments of the outline by their ends.
-    segments: Vec<[DVec3; 2]>,
+    curves: Vec<BezierCurve3>,
+    /// Parts of the outline: curve and parameters.
+    parts: Vec<(usize, f64, f64)>,
+    /// Boxes of the parts.
     tree: BoundsTree,
 }
 
-/// Segments of a piece of the outline.
-const SEGMENTS: usize = 24;
+/// Parts of a piece of the outline.
+const PARTS: usize = 16;
 
 impl<'a> Target<'a> {
     fn new(face: &'a Face) -> Self {
         let ground = Ground::new(face);
         let outline = Outline::new(face, &ground, 1e-6 * face.bounds.diagonal());
-        let (mut points, mut segments) = (Vec::new(), Vec::new());
-        for piece in outline.runs().flat_map(|(_, _, run)| &run.pieces) {
-            let curve = &piece.space;
-            let count = if curve.degree() == 1 { 2 } else { SEGMENTS };
-            let at: Vec<DVec3> = (0..=count).map(|k| curve.point(k as f64 / count as f64)).collect();
-            segments.extend(at.windows(2).map(|w| [w[0], w[1]]));
-            points.extend(&at[..count]);
+        let curves: Vec<BezierCurve3> =
+            outline.runs().flat_map(|(_, _, run)| &run.pieces).map(|p| p.space.clone()).collect();
+        let (mut points, mut parts, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
+        for (number, curve) in curves.iter().enumerate() {
+            let count = if curve.degree() == 1 { 2 } else { PARTS };
+            for k in 0..count {
+                let (from, to) = (k as f64 / count as f64, (k + 1) as f64 / count as f64);
+                points.push(curve.point(from));
+                parts.push((number, from, to));
+                boxes.push(Bounds::of(curve.restrict(from, to).points));
+            }
         }
-        let boxes: Vec<Bounds> = segments.iter().map(|s| Bounds::of(*s)).collect();
         let tree = BoundsTree::new(&boxes);
-        Self { face, ground, points, segments, tree }
+        Self { face, ground, points, curves, parts, tree }
     }
 
-    /// Foot of `p` on the surface, searched from `start`, and its distance. Raises `most` to the distance of `p` from the
-    /// trimmed face.
-    fn offer(&self, p: DVec3, start: DVec2, most: &mut f64) -> (DVec2, f64) {
+    /// Foot of `p` on the surface, searched from `start`, and its distance; and the distance of `p` from the trimmed face
+    /// where that is more than `most`.
+    fn offer(&self, p: DVec3, start: DVec2, most: f64) -> (DVec2, f64, f64) {
         let (mut foot, mut off) = project(&self.ground, p, start);
         let outside = |foot: DVec2| self.face.classify_native(foot.x, foot.y) != Side::In;
-        if !(off > *most || outside(foot)) {
-            return (foot, off);
-        }
-        let mut from_face = if outside(foot) { off.max(self.from_outline(p)) } else { off };
-        if from_face > *most {
-            if let Some(nearest) = closest_on_surface(&self.face.patches, p)
-                && nearest.distance < off
-            {
+        let from_face =
+            |foot: DVec2, off: f64| if outside(foot) { off.max(self.off_outline(p)) } else { off };
+        let mut found = from_face(foot, off);
+        if found > most
+            && let Some(nearest) = closest_on_surface(&self.face.patches, p)
+        {
+            if nearest.distance < off {
                 (foot, off) = (nearest.uv, nearest.distance);
-                from_face = if outside(foot) { off.max(self.from_outline(p)) } else { off };
             }
-            *most = most.max(from_face);
+            found = found.min(from_face(nearest.uv, nearest.distance));
         }
-        (foot, off)
+        (foot, off, found)
     }
 
-    /// Distance of `p` from the outline, a hair more than the true one where that bends.
-    fn from_outline(&self, p: DVec3) -> f64 {
+    /// Distance of `p` from the outline.
+    fn off_outline(&self, p: DVec3) -> f64 {
         let size = self.tree.bounds().diagonal();
         let mut reach = 1e-6 * size;
         while reach <= 4.0 * size {
             let mut best = f64::INFINITY;
-            self.tree.within(p, reach, |k| {
-                let [a, b] = self.segments[k];
-                best = best.min(distance_to_segment(p, a, b));
-            });
+            self.tree.within(p, reach, |k| best = best.min(self.off_part(p, k)));
             if best <= reach {
                 return best;
             }
             reach *= 4.0;
         }
         0.0
+    }
+
+    /// Distance of `p` from a part of the outline, which is too short to have more than one nearest point.
+    fn off_part(&self, p: DVec3, part: usize) -> f64 {
+        let (curve, mut from, mut to) = self.parts[part];
+        let off = |t: f64| self.curves[curve].point(t).distance(p);
+        for _ in 0..24 {
+            let third = (to - from) / 3.0;
+            if off(from + third) < off(to - third) {
+                to -= third;
+            } else {
+                from += third;
+            }
+        }
+        off(0.5 * (from + to)).min(off(self.parts[part].1)).min(off(self.parts[part].2))
     }
 }
 

@@ -55,7 +55,7 @@ const MESH_ROUNDS: usize = 4;
 /// Share of the tolerance within which outlines meet.
 const REACH: f64 = 0.5;
 /// The same as a part of the model's size, at most and at least.
-const FARTHEST: f64 = 2e-4;
+const FARTHEST: f64 = 4e-4;
 const NEAREST: f64 = 1e-9;
 
 /// Meshes `faces` (`None` for those that could not be derived) with common vertices.
@@ -172,6 +172,7 @@ pub fn remesh_faces(
                 Some(Err(TessellateError::Cancelled)) => {
                     return Err(TessellateError::TooManyTriangles { limit: options.triangle_limit });
                 }
+                Some(Err(error @ TessellateError::TooManyTriangles { .. })) => return Err(error),
                 Some(Err(error)) => meshes[face] = Some(Err(error)),
             }
         }

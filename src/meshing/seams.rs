@@ -59,8 +59,21 @@ pub struct Seams {
 /// Runs of all faces that could be prepared.
 type Runs<'a> = Vec<(RunAddress, &'a Run)>;
 
+/// Share of the tolerance that chords keep whatever gaps there are.
+const LEAST_SHARE: f64 = 0.3;
 /// Samples of a run for its box.
 const BOX_SAMPLES: usize = 8;
+/// Stretches between the same vertices that each one is compared with at most.
+const MOST_BESIDE: usize = 24;
+/// Stretches of one face make a seam within this part of the reach.
+const SAME_FACE: f64 = 0.02;
+/// Feet farther off than this part of a step are looked for along the whole run.
+const FAR: f64 = 0.05;
+/// Stretches shorter than this part of the reach and of their chain are nothing.
+const NOTHING: f64 = 0.3;
+const NOTHING_OF_CHAIN: f64 = 0.01;
+/// Ends this part of the reach off a run cut it: less than ends may be from each other, for spikes are thin.
+const CUT: f64 = 0.2;
 /// Ends closer than this share of a run's own length are not one vertex.
 const SHARE: f64 = 0.2;
 
@@ -78,21 +91,28 @@ impl Seams {
         let lengths: Vec<f64> = runs.iter().map(|(_, run)| rough_length(run)).collect();
         let cuts = cuts(&runs, &lengths, reach);
         let mut stretches = Vec::new();
-        let mut ends: Vec<(DVec3, f64)> = Vec::new();
+        let mut places: Vec<DVec3> = Vec::new();
+        let mut own: Vec<f64> = Vec::new();
         for ((address, run), cuts) in runs.iter().zip(&cuts) {
             for pair in cuts.windows(2) {
-                let own = SHARE * rough_part(run, pair[0], pair[1]);
                 stretches.push(Stretch {
                     address: *address,
                     range: (pair[0], pair[1]),
-                    ends: [ends.len(), ends.len() + 1],
+                    ends: [places.len(), places.len() + 1],
                     seam: usize::MAX,
                     forward: true,
                 });
-                ends.extend([pair[0], pair[1]].map(|s| (run.point(s), own.min(reach))));
+                places.extend([pair[0], pair[1]].map(|s| run.point(s)));
+                own.push(rough_part(run, pair[0], pair[1]));
             }
         }
-        let (names, vertices) = clusters(&ends);
+        let is_gap = |a: &RunAddress| {
+            let at = runs.binary_search_by(|r| r.0.cmp(a)).unwrap_or(0);
+            runs[at].1.source.is_none()
+        };
+        let (reaches, nothing) = reaches(&stretches, &own, reach, &is_gap);
+        let ends: Vec<(DVec3, f64)> = places.into_iter().zip(reaches).collect();
+        let (names, vertices) = clusters(&ends, &nothing);
         for stretch in &mut stretches {
             stretch.ends = stretch.ends.map(|e| names[e]);
         }
@@ -114,21 +134,7 @@ impl Seams {
         }
         let mut firsts: Vec<Vec<usize>> = Vec::new();
         for group in groups.into_values() {
-            let mut own: Vec<Vec<usize>> = Vec::new();
-            for k in group {
-                let stretch = self.stretches[k];
-                let found = own.iter_mut().find_map(|seam| {
-                    let first = self.stretches[seam[0]];
-                    beside(run(&first), &first, run(&stretch), &stretch, reach).map(|forward| (seam, forward))
-                });
-                match found {
-                    Some((seam, forward)) => {
-                        seam.push(k);
-                        self.stretches[k].forward = forward;
-                    }
-                    None => own.push(vec![k]),
-                }
-            }
+            let own = self.side_by_side(&group, reach, run);
             firsts.extend(own);
         }
         firsts.sort_by_key(|s| s[0]);
@@ -138,15 +144,84 @@ impl Seams {
         }
     }
 
+    /// Parts stretches between the same two vertices into those that run along each other, the nearest first; sets their
+    /// directions. Two of the same face are one only if they are as good as one: the sides of a sliver are not.
+    fn side_by_side<'a>(
+        &mut self,
+        group: &[usize],
+        reach: f64,
+        run: &dyn Fn(&Stretch) -> &'a Run,
+    ) -> Vec<Vec<usize>> {
+        let mut pairs: Vec<(f64, usize, usize, bool)> = Vec::new();
+        for (i, a) in group.iter().enumerate() {
+            // Many stretches between two vertices: by the first few.
+            for (j, b) in group.iter().enumerate().skip(i + 1).take(MOST_BESIDE) {
+                let (a, b) = (self.stretches[*a], self.stretches[*b]);
+                let reach = if a.address.face == b.address.face { SAME_FACE * reach } else { reach };
+                if let Some((forward, off)) = beside(run(&a), &a, run(&b), &b, reach) {
+                    pairs.push((off, i, j, forward));
+                }
+            }
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        // Each stretch's seam, and its direction in it.
+        let mut seams: Vec<Vec<(usize, bool)>> = (0..group.len()).map(|i| vec![(i, true)]).collect();
+        let mut of: Vec<usize> = (0..group.len()).collect();
+        for (off, i, j, forward) in pairs {
+            let (a, b) = (of[i].min(of[j]), of[i].max(of[j]));
+            let face = |m: &(usize, bool)| self.stretches[group[m.0]].address.face;
+            let common = seams[a].iter().any(|m| seams[b].iter().any(|n| face(m) == face(n)));
+            if a == b || common && off > SAME_FACE * reach {
+                continue;
+            }
+            let direction = |k: usize| seams[of[k]].contains(&(k, true));
+            let same = (direction(i) == direction(j)) == forward;
+            for (k, along) in std::mem::take(&mut seams[b]) {
+                of[k] = a;
+                seams[a].push((k, along == same));
+            }
+        }
+        seams.retain(|seam| !seam.is_empty());
+        for seam in &mut seams {
+            seam.sort_unstable();
+            let first = seam[0].1;
+            seam.iter().for_each(|(k, along)| self.stretches[group[*k]].forward = *along == first);
+        }
+        seams.into_iter().map(|seam| seam.into_iter().map(|m| group[m.0]).collect()).collect()
+    }
+
     /// The vertices of a seam on its first stretch, for `part` of the tolerance.
     pub fn divide(&self, seam: usize, faces: &[Option<Tessellator>], part: f64) -> Vec<EdgeSample> {
         let stretch = &self.stretches[self.seams[seam].stretches[0]];
         let Some((face, run)) = run_of(faces, &stretch.address) else { return Vec::new() };
-        let mut samples = face.divide_part(run, stretch.range, part);
+        // What gaps use up of the tolerance is not there for chords.
+        let rest = (1.0 - self.gap(seam, faces) / face.tolerance()).max(LEAST_SHARE);
+        let mut samples = face.divide_part(run, stretch.range, part * rest);
         let last = samples.len() - 1;
         samples[0].point = self.vertices[stretch.ends[0]];
         samples[last].point = self.vertices[stretch.ends[1]];
         samples
+    }
+
+    /// How far the ends of a seam's stretches are from their common vertices, and its stretches from each other.
+    fn gap(&self, seam: usize, faces: &[Option<Tessellator>]) -> f64 {
+        let mut gap = 0.0f64;
+        let mut middle = None;
+        for number in &self.seams[seam].stretches {
+            let stretch = &self.stretches[*number];
+            let Some((_, run)) = run_of(faces, &stretch.address) else { continue };
+            let (from, to) = stretch.range;
+            for (s, end) in [(from, stretch.ends[0]), (to, stretch.ends[1])] {
+                gap = gap.max(run.point(s).distance(self.vertices[end]));
+            }
+            let here = run.point(0.5 * (from + to));
+            let there = *middle.get_or_insert(here);
+            if there != here {
+                let s = run.project(there, 0.5 * (from + to), stretch.range);
+                gap = gap.max(run.point(s).distance(there));
+            }
+        }
+        gap
     }
 
     /// The vertices of stretch `number` from those of its seam's first, in its own direction.
@@ -176,12 +251,16 @@ impl Seams {
                 _ => {
                     let low = samples[k - 1].s;
                     let guess = (from + (to - from) * share).max(low);
+                    let off = |s: f64| run.point(s).distance(source.point);
                     let mut s = run.project(source.point, guess, (low, to));
-                    if run.point(s).distance(source.point) > run.point(guess).distance(samples[k - 1].point) {
-                        s = run.nearest(source.point).0;
+                    let step = run.point(guess).distance(samples[k - 1].point);
+                    if off(s) > FAR * step || !(s > low && s < to) {
+                        let nearest = run.nearest(source.point).0;
+                        let near = run.project(source.point, nearest.clamp(low, to), (low, to));
+                        s = if off(near) < off(s) { near } else { s };
                     }
                     // Vertices keep their order even where the curves do not follow each other.
-                    if s > low && s < to { s } else { low + (to - low) / (count - k) as f64 }
+                    if s > low && s < to { s } else { low + 1e-3 * (to - low) / (count - k) as f64 }
                 }
             };
             samples.push(EdgeSample { s, uv: run.uv(s), point: source.point });
@@ -217,17 +296,26 @@ fn cuts(runs: &Runs, lengths: &[f64], reach: f64) -> Vec<Vec<f64>> {
         .collect();
     let tree = BoundsTree::new(&boxes);
     let mut cuts: Vec<Vec<f64>> = runs.iter().map(|(_, run)| vec![0.0, run.range()]).collect();
+    let of_face = |face: usize| {
+        let first = runs.partition_point(|r| r.0.face < face);
+        runs[first..].iter().take_while(move |r| r.0.face == face)
+    };
     let mut points: Vec<DVec3> = runs.iter().flat_map(|(_, run)| run.ends()).collect();
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
     points.dedup();
     for point in points {
-        tree.within(point, reach, |k| {
+        tree.within(point, CUT * reach, |k| {
             let run = runs[k].1;
-            let near = reach.min(SHARE * lengths[k]);
+            let near = (CUT * reach).min(SHARE * lengths[k]);
             let away = |s: f64| run.point(s).distance(point) > 2.0 * near;
             if away(0.0) && away(run.range()) {
                 let (s, off) = run.nearest(point);
-                if off <= near && cuts[k].iter().all(|c| away(*c)) {
+                // Where the face has a vertex of its own it is that which meets the point: this is the other side of a
+                // sliver or spike.
+                let own = || {
+                    of_face(runs[k].0.face).any(|(_, r)| r.ends().iter().any(|e| e.distance(point) <= near))
+                };
+                if off <= near && cuts[k].iter().all(|c| away(*c)) && (off <= SAME_FACE * reach || !own()) {
                     cuts[k].push(s);
                 }
             }
@@ -237,8 +325,46 @@ fn cuts(runs: &Runs, lengths: &[f64], reach: f64) -> Vec<Vec<f64>> {
     cuts
 }
 
-/// Names the clusters of ends that lie within reach of each other. Reach is less than the length of either stretch.
-fn clusters(ends: &[(DVec3, f64)]) -> (Vec<usize>, Vec<DVec3>) {
+/// How far each end may be from others that are the same vertex: less than the lengths of both stretches that meet there.
+/// And the pairs of ends of stretches that are nothing (poles, rounding, lines that close gaps), whose ends are one vertex.
+fn reaches(
+    stretches: &[Stretch],
+    own: &[f64],
+    reach: f64,
+    is_gap: &dyn Fn(&RunAddress) -> bool,
+) -> (Vec<f64>, Vec<[usize; 2]>) {
+    let mut reaches = vec![reach; 2 * stretches.len()];
+    let mut nothing = Vec::new();
+    let chain = |s: &Stretch| (s.address.face, s.address.chain);
+    let mut first = 0;
+    for same in stretches.chunk_by(|a, b| chain(a) == chain(b)) {
+        let count = same.len();
+        let lengths = &own[first..first + count];
+        let total: f64 = lengths.iter().sum();
+        let least = (NOTHING * reach).min(NOTHING_OF_CHAIN * total);
+        let closes = |k: usize| lengths[k] <= reach.min(0.1 * total) && is_gap(&same[k].address);
+        let is_nothing: Vec<bool> = (0..count).map(|k| lengths[k] <= least || closes(k)).collect();
+        // The next stretch that is something, going by `step`.
+        let next = |k: usize, step: usize| {
+            let mut others = (1..count).map(|i| (k + i * step) % count);
+            others.find(|k| !is_nothing[*k]).map_or(total, |k| lengths[k])
+        };
+        for (k, length) in lengths.iter().enumerate() {
+            let [start, end] = same[k].ends;
+            let here = if is_nothing[k] { f64::INFINITY } else { *length };
+            reaches[start] = reach.min(SHARE * here.min(next(k, count - 1)));
+            reaches[end] = reach.min(SHARE * here.min(next(k, 1)));
+            if is_nothing[k] {
+                nothing.push([start, end]);
+            }
+        }
+        first += count;
+    }
+    (reaches, nothing)
+}
+
+/// Names the clusters of ends that lie within reach of each other, or are `one`.
+fn clusters(ends: &[(DVec3, f64)], one: &[[usize; 2]]) -> (Vec<usize>, Vec<DVec3>) {
     let mut parent: Vec<usize> = (0..ends.len()).collect();
     fn root(parent: &mut [usize], mut k: usize) -> usize {
         while parent[k] != k {
@@ -247,18 +373,42 @@ fn clusters(ends: &[(DVec3, f64)]) -> (Vec<usize>, Vec<DVec3>) {
         }
         k
     }
+    for [a, b] in one {
+        let (a, b) = (root(&mut parent, *a), root(&mut parent, *b));
+        parent[a.max(b)] = a.min(b);
+    }
     let boxes: Vec<Bounds> = ends.iter().map(|(p, _)| Bounds { min: *p, max: *p }).collect();
     let tree = BoundsTree::new(&boxes);
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for (k, (p, reach)) in ends.iter().enumerate() {
-        let mut near = Vec::new();
-        tree.within(*p, *reach, |other| near.push(other));
-        near.sort_unstable();
-        for other in near {
-            if ends[other].0.distance(*p) <= reach.min(ends[other].1) {
-                let (a, b) = (root(&mut parent, k), root(&mut parent, other));
-                parent[a.max(b)] = a.min(b);
+        tree.within(*p, *reach, |other| {
+            let off = ends[other].0.distance(*p);
+            if other > k && off <= reach.min(ends[other].1) {
+                pairs.push((off, k, other));
             }
+        });
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    // The nearest first; the two ends of a stretch (which are neighbours in number) stay apart, unless it is closed.
+    let closed = |k: usize| ends[k].0.distance(ends[k ^ 1].0) <= SAME_FACE * ends[k].1;
+    let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for k in 0..ends.len() {
+        members.entry(root(&mut parent, k)).or_default().push(k);
+    }
+    for (_, a, b) in pairs {
+        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+        let (a, b) = (a.min(b), a.max(b));
+        if a == b {
+            continue;
         }
+        let [of_a, of_b] = [a, b].map(|k| members.get(&k).map_or(&[][..], Vec::as_slice));
+        let (few, other) = if of_a.len() < of_b.len() { (of_a, b) } else { (of_b, a) };
+        if few.iter().any(|k| !closed(*k) && root(&mut parent, k ^ 1) == other) {
+            continue;
+        }
+        parent[b] = a;
+        let moved = members.remove(&b).unwrap_or_default();
+        members.entry(a).or_default().extend(moved);
     }
     let mut names = vec![usize::MAX; ends.len()];
     let mut vertices = Vec::new();
@@ -273,8 +423,8 @@ fn clusters(ends: &[(DVec3, f64)]) -> (Vec<usize>, Vec<DVec3>) {
     (names, vertices)
 }
 
-/// Whether `b` runs along `a`; then whether in the same direction.
-fn beside(a: &Run, along: &Stretch, b: &Run, other: &Stretch, reach: f64) -> Option<bool> {
+/// Whether `b` runs along `a`; then whether in the same direction, and how far off.
+fn beside(a: &Run, along: &Stretch, b: &Run, other: &Stretch, reach: f64) -> Option<(bool, f64)> {
     let at = |stretch: &Stretch, share: f64| stretch.range.0 + (stretch.range.1 - stretch.range.0) * share;
     let near = |p: DVec3| {
         let (low, high) = along.range;
@@ -282,16 +432,21 @@ fn beside(a: &Run, along: &Stretch, b: &Run, other: &Stretch, reach: f64) -> Opt
             .map(|k| low + (high - low) * f64::from(k) / 16.0)
             .min_by(|x, y| a.point(*x).distance_squared(p).total_cmp(&a.point(*y).distance_squared(p)))?;
         let s = a.project(p, best, along.range);
-        (a.point(s).distance(p) <= reach).then_some(s)
+        let off = a.point(s).distance(p);
+        (off <= reach).then_some((s, off))
     };
-    let places = [0.3, 0.5, 0.7].map(|share| near(b.point(at(other, share))));
-    let (first, _, last) = (places[0]?, places[1]?, places[2]?);
+    let places = [0.3, 0.5, 0.7, 0.12, 0.88].map(|share| near(b.point(at(other, share))));
+    let mut off = 0.0f64;
+    for place in places {
+        off = off.max(place?.1);
+    }
+    let (first, last) = (places[0]?.0, places[2]?.0);
     if along.ends[0] != along.ends[1] && along.ends != other.ends {
-        return (along.ends[0] == other.ends[1]).then_some(false);
+        return (along.ends[0] == other.ends[1]).then_some((false, off));
     }
     if along.ends[0] != along.ends[1] {
-        return Some(true);
+        return Some((true, off));
     }
     // Closed: by the order of places.
-    Some(first < last)
+    Some((first < last, off))
 }

@@ -15,5 +15,6 @@ mod mutations;
 mod pin_holes;
 mod points;
 mod saving;
+mod tessellate_command;
 mod tessellation;
 mod truth;

@@ -12,6 +12,7 @@ pub mod rivals;
 pub mod scene;
 pub mod shapes;
 pub mod sheet;
+pub mod tessellate;
 pub mod walk;
 
 use std::io;
@@ -50,6 +51,7 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
         Table::Misses => misses::run(&models, &mut out).map_err(unwritable),
         Table::Scene => scene::run(&mut out).map_err(unwritable),
         Table::Gaps => gaps::run(&models, &mut out).map_err(unwritable),
+        Table::Tessellate => tessellate::run(&models, arguments.samples, &mut out).map_err(unwritable),
     })
 }
 

@@ -38,8 +38,12 @@ pub struct ChordLimits {
 const WIDEST_TURN: f64 = 2.0;
 /// Joints that turn by more than this are corners, which keep a vertex (cosine).
 const SMOOTH: f64 = 0.99;
-/// Samples of the curvature of each piece.
-const PROBES: usize = 4;
+/// Samples of the curvature of a stretch, about.
+const PROBES: usize = 64;
+/// Numbers of chords, each a fortieth more than the one before, that are tried before chords are halved.
+const ROUNDS: usize = 9;
+/// Runs within this part of the tolerance are points.
+const NOTHING: f64 = 1e-6;
 /// Most vertices on one stretch.
 const MOST: f64 = 2e6;
 
@@ -58,6 +62,7 @@ impl ChordLimits {
 /// Vertices of `run`, both ends included, `s` rising.
 pub fn divide(run: &Run, limits: &ChordLimits, options: &TessellationOptions) -> Vec<EdgeSample> {
     let mut places = match options.curve_division {
+        _ if is_nothing(run, NOTHING * limits.tolerance) => vec![0.0, run.range()],
         CurveDivision::Even => even(run, limits),
         other => by_pieces(run, limits, other, options.curve_error),
     };
@@ -89,6 +94,12 @@ pub fn divide_part(
     samples
 }
 
+/// Whether a run stays within `reach` of its start: a pole, whose curve is rounding.
+fn is_nothing(run: &Run, reach: f64) -> bool {
+    let start = run.point(0.0);
+    run.pieces.iter().flat_map(|p| &p.space.points).all(|p| p.distance(start) <= reach)
+}
+
 fn even(run: &Run, limits: &ChordLimits) -> Vec<f64> {
     let mut places = vec![0.0];
     let mut first = 0;
@@ -107,10 +118,10 @@ fn is_smooth(a: &BezierCurve3, b: &BezierCurve3) -> bool {
     x.dot(y) >= SMOOTH * x.length() * y.length()
 }
 
-/// Number of chords that each part of a piece asks for.
-fn demand(curve: &BezierCurve3, limits: &ChordLimits) -> [f64; PROBES] {
-    let step = 1.0 / PROBES as f64;
-    std::array::from_fn(|k| {
+/// Number of chords that each of `probes` parts of a piece asks for.
+fn demand(curve: &BezierCurve3, limits: &ChordLimits, probes: usize) -> impl Iterator<Item = f64> {
+    let step = 1.0 / probes as f64;
+    (0..probes).map(move |k| {
         let jet = curve.jet((k as f64 + 0.5) * step);
         let speed = jet.d1.length();
         let bend = if speed > 0.0 { jet.d2.cross(jet.d1).length() / speed } else { jet.d2.length() };
@@ -122,30 +133,40 @@ fn demand(curve: &BezierCurve3, limits: &ChordLimits) -> [f64; PROBES] {
 
 /// Divides the pieces `first..end` of a run, a smooth stretch.
 fn stretch(run: &Run, first: usize, end: usize, limits: &ChordLimits, places: &mut Vec<f64>) {
-    let demands: Vec<f64> = run.pieces[first..end].iter().flat_map(|p| demand(&p.space, limits)).collect();
+    let probes = (PROBES / (end - first)).clamp(4, 16);
+    let demands: Vec<f64> =
+        run.pieces[first..end].iter().flat_map(|p| demand(&p.space, limits, probes)).collect();
     let total: f64 = demands.iter().sum();
     let total = if total.is_finite() { total.min(MOST) } else { 1.0 };
-    // Chords may be a percent too long for their share: the proof below decides.
-    let least = (total - 0.01).ceil().max(1.0) as usize;
+    // Chords may be a percent too long for their share of the tolerance: the proof below decides.
+    let strict = limits.length.is_finite() || limits.angle < WIDEST_TURN;
+    let least = (total - if strict { 0.0 } else { 0.01 }).ceil().max(1.0) as usize;
     let offset = first as f64;
-    for count in least..least + 2 {
-        let cuts = shares(&demands, count);
-        let fits = cuts.windows(2).all(|c| is_within(run, offset + c[0], offset + c[1], limits.tolerance));
-        if fits {
+    let mut before = 0;
+    for round in 0..ROUNDS {
+        let count = least + (least * round).div_ceil(40);
+        let cuts = shares(&demands, count, probes);
+        let fits = |c: &[f64]| {
+            let (from, to) = (offset + c[0], offset + c[1]);
+            run.point(from).distance(run.point(to)) <= limits.length
+                && is_within(run, from, to, limits.tolerance)
+        };
+        if count > before && cuts.windows(2).all(fits) {
             places.extend(cuts[1..].iter().map(|c| offset + c));
             return;
         }
+        before = count;
     }
-    let cuts = shares(&demands, least);
+    let cuts = shares(&demands, least, probes);
     for pair in cuts.windows(2) {
         halve(run, (offset + pair[0], offset + pair[1]), limits.tolerance, 24, places);
     }
 }
 
 /// `count + 1` parameters at even shares of the demand, the first 0 and the last the number of pieces.
-fn shares(demands: &[f64], count: usize) -> Vec<f64> {
+fn shares(demands: &[f64], count: usize, probes: usize) -> Vec<f64> {
     let total: f64 = demands.iter().sum();
-    let end = demands.len() as f64 / PROBES as f64;
+    let end = demands.len() as f64 / probes as f64;
     let mut cuts = vec![0.0];
     let (mut k, mut before) = (0, 0.0);
     for i in 1..count {
@@ -155,7 +176,7 @@ fn shares(demands: &[f64], count: usize) -> Vec<f64> {
             k += 1;
         }
         let part = if demands[k] > 0.0 { ((target - before) / demands[k]).clamp(0.0, 1.0) } else { 0.5 };
-        cuts.push((k as f64 + part) / PROBES as f64);
+        cuts.push((k as f64 + part) / probes as f64);
     }
     cuts.push(end);
     if !total.is_finite() || cuts.windows(2).any(|c| c[1] <= c[0]) {

@@ -106,11 +106,8 @@ impl Curvature {
                     }
                 }
             }
-            let factor = [
-                mf * (mf - 1.0) / unit.x,
-                mf * nf / (net.size.x * net.size.y),
-                nf * (nf - 1.0) / unit.y,
-            ];
+            let factor =
+                [mf * (mf - 1.0) / unit.x, mf * nf / (net.size.x * net.size.y), nf * (nf - 1.0) / unit.y];
             for k in 0..3 {
                 // Of a degree too low to have this derivative: none.
                 let (low, high) = if ranges[k].0 <= ranges[k].1 { ranges[k] } else { (0.0, 0.0) };

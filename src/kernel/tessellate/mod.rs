@@ -2,7 +2,8 @@
 //!
 //! Trim curves are lifted to model space ([`lift`], [`outline`]) and divided into chords ([`chords`]) independently of the
 //! surface, which is divided until it is as close to its triangles as asked ([`refine`], [`flatness`]); both meet in a
-//! constrained Delaunay triangulation in parameters ([`triangulate`]). Unlike in the paper no vertex is ever put on a chord
+//! constrained Delaunay triangulation in parameters ([`triangulate`]); folds are turned and superfluous vertices taken out
+//! again. Unlike in the paper no vertex is ever put on a chord
 //! where the surface's cells cross it, so that two faces that share chords share all their vertices there.
 //! [`untrimmed()`] gives the surface alone, by the paper's kd-tree.
 //!
@@ -13,6 +14,8 @@
 
 pub mod bilinear;
 pub mod chords;
+pub mod coherence;
+mod decimate;
 pub mod flatness;
 pub mod kd_tree;
 pub mod lift;
@@ -25,9 +28,11 @@ pub mod refine;
 pub mod simplify;
 pub mod tessellator;
 pub mod triangulate;
+mod untangle;
 pub mod untrimmed;
 
 pub use chords::{ChordLimits, EdgeSample};
+pub use coherence::CoherentPoints;
 pub use mesh::{FaceMesh, Quality};
 pub use options::{CurveDivision, CurveError, SurfaceDivision, TessellateError, TessellationOptions};
 pub use outline::{Ground, Outline, Run};

@@ -58,6 +58,14 @@ pub struct Refined {
     pub stubborn: BTreeSet<Chord>,
 }
 
+impl Refined {
+    /// Leaves a triangle as it is.
+    fn give_up(&mut self, task: &Task) {
+        self.over += usize::from(task.over);
+        self.error = self.error.max(task.error);
+    }
+}
+
 /// A triangle to look at.
 struct Task {
     /// Its worst measure over its limit: above 1 it must be divided.
@@ -65,6 +73,8 @@ struct Task {
     corners: [FixedVertexHandle; 3],
     divide: Divide,
     error: f64,
+    /// Whether it is the tolerance that it is over.
+    over: bool,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -96,9 +106,11 @@ impl Ord for Task {
 /// Edges that bring in less than this share of the allowed error are not divided for it.
 const STANDS_OUT: f64 = 0.55;
 /// A boundary chord that alone brings in this share of the allowed error is at fault itself.
-const AT_FAULT: f64 = 0.97;
+const AT_FAULT: f64 = 0.985;
 /// Vertices stay away from chords by this multiple of what the chord bends.
 const NEAR: f64 = 2.0;
+/// Triangles that look away from the surface and are higher than this part of the tolerance are divided.
+const FOLDED: f64 = 0.05;
 /// Edges shorter than this part of the face's parameters are not divided.
 const SHORTEST: f64 = 1e-7;
 
@@ -135,8 +147,7 @@ impl Refinement<'_> {
             };
             if let Some(k) = self.too_near_a_chord(vertices, &numbers, &bounds, at) {
                 refined.stubborn.insert([numbers[k], numbers[(k + 1) % 3]]);
-                refined.over += 1;
-                refined.error = refined.error.max(task.error);
+                refined.give_up(&task);
                 continue;
             }
             let mut done = self.put(region, vertices, at, task.corners[0]);
@@ -149,10 +160,7 @@ impl Refinement<'_> {
                         self.judge(region, vertices, corners, &mut queue, &mut refined);
                     }
                 }
-                None => {
-                    refined.over += 1;
-                    refined.error = refined.error.max(task.error);
-                }
+                None => refined.give_up(&task),
             }
             if region.len() > self.options.triangle_limit {
                 return Err(TessellateError::TooManyTriangles { limit: self.options.triangle_limit });
@@ -246,8 +254,11 @@ impl Refinement<'_> {
         if let Some(limit) = self.options.max_angle
             && !self.planar
         {
-            let n = numbers.map(|n| vertices.normals[n as usize]);
-            let angle = [0, 1, 2].map(|k| n[k].angle_between(n[(k + 1) % 3])).into_iter().fold(0.0, f64::max);
+            let angles = [0, 1, 2].map(|k| normals[k].angle_between(normals[(k + 1) % 3]));
+            for k in (0..3).filter(|k| bounds[*k] && angles[*k] > limit) {
+                refined.stubborn.insert([numbers[k], numbers[(k + 1) % 3]]);
+            }
+            let angle = angles.into_iter().fold(0.0, f64::max);
             if angle / limit > excess.max(1.0) {
                 excess = angle / limit;
                 divide = Some(free_longest(&lengths, &bounds).map_or(Divide::Middle, Divide::Edge));
@@ -260,12 +271,11 @@ impl Refinement<'_> {
         let size = self.domain.size();
         let extent = [0, 1, 2].map(|k| ((uv[(k + 1) % 3] - uv[k]) / size).abs().max_element());
         let small = extent.into_iter().fold(0.0, f64::max) < SHORTEST;
+        let over = !(error <= allowed);
+        let task = |divide| Task { excess, corners, divide, error: error + gap, over };
         match divide {
-            Some(divide) if !small => queue.push(Task { excess, corners, divide, error: error + gap }),
-            _ => {
-                refined.over += 1;
-                refined.error = refined.error.max(error + gap);
-            }
+            Some(divide) if !small => queue.push(task(divide)),
+            _ => refined.give_up(&task(Divide::Middle)),
         }
     }
 
@@ -313,6 +323,23 @@ impl Refinement<'_> {
         }
     }
 
+    /// Whether a triangle keeps the tolerance.
+    pub fn holds(&self, vertices: &Vertices, triangle: [u32; 3]) -> bool {
+        let of = |all: &[DVec3]| triangle.map(|n| all[n as usize]);
+        let uv = triangle.map(|n| vertices.uvs[n as usize]);
+        let gap = triangle.map(|n| p_gap(vertices, n)).into_iter().fold(0.0, f64::max);
+        let allowed = (self.options.tolerance - gap).max(0.5 * self.options.tolerance);
+        let (p, normals) = (of(&vertices.on_surface), of(&vertices.normals));
+        let sides = [0, 1, 2].map(|k| (k, (k + 1) % 3));
+        let longest = self.options.max_edge.unwrap_or(f64::INFINITY);
+        let widest = self.options.max_angle.unwrap_or(f64::INFINITY);
+        sides.iter().all(|(a, b)| p[*a].distance(p[*b]) <= longest)
+            && sides
+                .iter()
+                .all(|(a, b)| widest.is_infinite() || normals[*a].angle_between(normals[*b]) <= widest)
+            && self.error(uv, p, normals, allowed).error <= allowed
+    }
+
     /// Error of a triangle whose corners lie at `p` on the surface.
     ///
     /// What counts is the distance from the triangle's plane. Where the image of an edge leaves the triangle sideways its
@@ -325,23 +352,35 @@ impl Refinement<'_> {
         let cross = edges[0].cross(-edges[2]);
         let longest = edges.iter().map(|e| e.length_squared()).fold(0.0, f64::max);
         let solid = cross.length() > 1e-9 * longest;
-        let normal =
-            if solid { cross.normalize_or_zero() } else { (normals[0] + normals[1] + normals[2]).normalize_or_zero() };
-        let turn = if solid { normals.map(|n| n.cross(normal).length()).into_iter().fold(0.0, f64::max) } else { 0.0 };
+        let normal = if solid {
+            cross.normalize_or_zero()
+        } else {
+            (normals[0] + normals[1] + normals[2]).normalize_or_zero()
+        };
+        // The sine of the largest turn, 1 beyond a right angle.
+        let sine = |n: DVec3| if n.dot(normal) > 0.0 { n.cross(normal).length() } else { 1.0 };
+        let turn = if solid { normals.map(sine).into_iter().fold(0.0, f64::max) } else { 0.0 };
         let mut sideways = 0.0f64;
+        let mut asides = [0.0; 3];
         let shares = [0, 1, 2].map(|k| {
             let to = (k + 1) % 3;
             let d = self.ground.point(0.5 * (uv[k] + uv[to])) - p[k];
             let up = d.dot(normal).abs();
             if solid {
                 let out = edges[k].cross(normal).normalize_or_zero();
-                let aside = d.dot(out).max(0.0);
+                let aside = d.dot(out).abs();
+                asides[k] = aside;
                 sideways = sideways.max((2.0 * aside * turn).min(up.hypot(aside) - up));
             }
             up
         });
         let middle = (self.ground.point((uv[0] + uv[1] + uv[2]) / 3.0) - p[0]).dot(normal).abs();
         let estimate = shares.into_iter().fold(middle, f64::max) + sideways;
+        let away = normal.dot(normals[0] + normals[1] + normals[2]) < 0.0;
+        if solid && away && cross.length() > FOLDED * allowed * longest.sqrt() {
+            // Folded over: the surface runs unevenly over its parameters here.
+            return Found { error: estimate.max(2.0 * allowed), shares: asides, crease: None };
+        }
         let Some(flatness) = self.flatness else { return Found { error: estimate, shares, crease: None } };
         let crease = if estimate > 0.25 * allowed { flatness.crossed(&uv, 0.25 * allowed) } else { None };
         // Beside a triangle smaller than the tolerance nothing is far.
@@ -364,8 +403,10 @@ struct Found {
     crease: Option<(usize, f64)>,
 }
 
+/// How far a vertex lies off its surface. What it lies aside of its place on the surface makes no triangle worse.
 fn p_gap(vertices: &Vertices, n: u32) -> f64 {
-    vertices.positions[n as usize].distance(vertices.on_surface[n as usize])
+    let n = n as usize;
+    (vertices.positions[n] - vertices.on_surface[n]).dot(vertices.normals[n]).abs()
 }
 
 fn free_longest(lengths: &[f64; 3], bounds: &[bool; 3]) -> Option<usize> {

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 
 use super::chords::{ChordLimits, EdgeSample, divide, divide_part};
+use super::decimate::decimate;
 use super::flatness::Flatness;
 use super::mesh::{FaceMesh, Quality};
 use super::options::{TessellateError, TessellationOptions};
@@ -16,6 +17,7 @@ use super::plane::Plane;
 use super::refine::{Refinement, Vertices};
 use super::simplify::simplify;
 use super::triangulate::Region;
+use super::untangle::untangle;
 use crate::kernel::face::Face;
 
 /// Vertices along every run of a face, `[chain][run]`, both ends of each included.
@@ -46,9 +48,11 @@ pub struct Tessellator<'a> {
 /// Share of the tolerance within which a face counts as plane.
 const FLAT: f64 = 1e-3;
 /// Chords keep to this share, because triangles beside them bend as much and more.
-const CHORD_SHARE: f64 = 0.88;
+const CHORD_SHARE: f64 = 0.95;
 /// Chords whose proven error is above this share are too long for triangles beside them.
-const CHORD_LIMIT: f64 = 0.96;
+const CHORD_LIMIT: f64 = 0.985;
+/// Runs shorter than this part of the tolerance are one point.
+const NOTHING: f64 = 1e-6;
 /// Rounds in which chords are divided for the sake of the face.
 const ROUNDS: usize = 6;
 
@@ -88,10 +92,28 @@ impl<'a> Tessellator<'a> {
         &self.outline
     }
 
+    /// The tolerance that was asked for.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
     /// Chords of every run by the face's own choice: a function of the run alone.
     pub fn own_boundary(&self) -> Boundary {
         let runs = self.outline.chains.iter();
-        runs.map(|chain| chain.iter().map(|run| self.divide(run, 1.0)).collect()).collect()
+        let mut boundary: Boundary =
+            runs.map(|chain| chain.iter().map(|run| self.divide(run, 1.0)).collect()).collect();
+        // Runs that are nothing but rounding (poles) are one point.
+        for runs in &mut boundary {
+            let count = runs.len();
+            for k in 0..count {
+                let (first, last) = (runs[k][0].point, runs[k].len() - 1);
+                if last == 1 && first.distance(runs[k][1].point) <= NOTHING * self.tolerance {
+                    runs[k][1].point = first;
+                    runs[(k + 1) % count][0].point = first;
+                }
+            }
+        }
+        boundary
     }
 
     /// Chords of one run, for a part of the tolerance.
@@ -170,6 +192,7 @@ impl<'a> Tessellator<'a> {
         for place in &crossings.places {
             self.add_crossing(*place, &refinement, &mut vertices);
         }
+        let fixed = vertices.uvs.len();
         if !(self.plane.is_some() && self.options.max_edge.is_none()) {
             let refined = refinement.run(&mut region, &mut vertices, cancelled)?;
             quality.error = refined.error;
@@ -182,9 +205,12 @@ impl<'a> Tessellator<'a> {
         }
         quality.evaluations = vertices.uvs.len();
         let reversed = self.plane.is_none() && scale.x * scale.y < 0.0;
-        let triangles: Vec<[u32; 3]> =
+        let mut triangles: Vec<[u32; 3]> =
             region.triangles().map(|[a, b, c]| if reversed { [a, c, b] } else { [a, b, c] }).collect();
         if self.plane.is_none() {
+            let within = |t: [u32; 3]| refinement.holds(&vertices, t);
+            untangle(&mut triangles, &vertices, within);
+            decimate(&mut triangles, &vertices, fixed, &refinement, cancelled);
             for [a, b] in folded(&vertices, &triangles) {
                 long.extend(owners.get(&[a, b]).or_else(|| owners.get(&[b, a])));
             }
@@ -221,16 +247,26 @@ impl<'a> Tessellator<'a> {
     /// The first vertex of a chord; and where the chord is one point (a pole) others at the same position, so that the
     /// triangles that end there are no wider than others.
     fn along(&self, pair: &[EdgeSample], scale: DVec2) -> Vec<EdgeSample> {
-        /// Vertices along a pole at most.
+        /// Vertices along a pole at most, and the angle between two.
         const MOST: f64 = 256.0;
+        const WIDEST: f64 = 0.8;
         let (a, b) = (pair[0], pair[1]);
         let step = ((b.uv - a.uv) * scale).length();
         if a.point != b.point || self.plane.is_some() || !(step > 1.0) {
             return vec![a];
         }
-        let count = step.min(MOST).ceil() as usize;
+        let count = step.min(self.sweep(a.uv, b.uv) / WIDEST).min(MOST).ceil().max(1.0) as usize;
         let at = |k: usize| a.uv.lerp(b.uv, k as f64 / count as f64);
         (0..count).map(|k| EdgeSample { uv: at(k), ..a }).collect()
+    }
+
+    /// The angle that the surface sweeps round a pole between two places on its border.
+    fn sweep(&self, a: DVec2, b: DVec2) -> f64 {
+        const STEPS: usize = 24;
+        let inward = 1e-3 * (0.5 * (self.face.domain.min + self.face.domain.max) - 0.5 * (a + b));
+        let pole = self.ground.point(a);
+        let direction = |k: usize| self.ground.point(a.lerp(b, k as f64 / STEPS as f64) + inward) - pole;
+        (0..STEPS).map(|k| direction(k).angle_between(direction(k + 1))).filter(|x| x.is_finite()).sum()
     }
 
     /// Makes parameters of boundary vertices that differ by rounding alone the same, u and v apart: chords along
@@ -313,7 +349,7 @@ fn folded(vertices: &Vertices, triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
         let p = t.map(|v| vertices.positions[v as usize]);
         let side: DVec3 = t.iter().map(|v| vertices.normals[*v as usize]).sum();
         let solid = p[0] != p[1] && p[1] != p[2] && p[2] != p[0];
-        if solid && (p[1] - p[0]).cross(p[2] - p[0]).dot(side) <= 0.0 {
+        if solid && (p[1] - p[0]).cross(p[2] - p[0]).dot(side) < 0.0 {
             edges.extend((0..3).map(|k| [t[k], t[(k + 1) % 3]]));
         }
     }

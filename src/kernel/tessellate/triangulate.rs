@@ -61,8 +61,8 @@ pub struct Crossings {
 }
 
 fn point(p: DVec2) -> Point2<f64> {
-    // Numbers too small for exact predicates are nothing.
-    let clean = |x: f64| if x.abs() < 1e-100 { 0.0 } else { x };
+    // Numbers too small for exact predicates, which the triangulation refuses, are nothing.
+    let clean = |x: f64| if x.abs() < 10.0 * spade::MIN_ALLOWED_VALUE { 0.0 } else { x };
     Point2::new(clean(p.x), clean(p.y))
 }
 

@@ -8,9 +8,11 @@
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
+use super::coherence::CoherentPoints;
 use super::kd_tree::{self, CellLimits};
 use super::options::{TessellateError, TessellationOptions};
 use super::outline::Ground;
+use crate::kernel::bezier::Tangents;
 use crate::kernel::face::Face;
 use crate::kernel::trim::UvRect;
 
@@ -54,19 +56,21 @@ pub fn untrimmed(face: &Face, options: &TessellationOptions) -> Result<Untrimmed
         triangulate(&polygon, &mesh.uvs, &mut mesh.triangles);
     }
     let slightly_in = 1e-6 * face.domain.size();
+    // Corners come sorted by v.
+    let mut points = CoherentPoints::new(&ground);
     for uv in &mesh.uvs {
-        mesh.positions.push(ground.point(*uv));
-        mesh.normals.push(normal(&ground, *uv, &face.domain, slightly_in));
+        let at = points.tangents(*uv);
+        mesh.positions.push(at.point);
+        let normal = upright(&at).unwrap_or_else(|| normal(&ground, *uv, &face.domain, slightly_in));
+        mesh.normals.push(normal);
     }
     Ok(mesh)
 }
 
 /// The unit normal at `uv`; where there is none (a pole), that of a point slightly inside.
 pub(super) fn normal(ground: &Ground, uv: DVec2, domain: &UvRect, slightly: DVec2) -> DVec3 {
-    let at = ground.tangents(uv);
-    let cross = at.du.cross(at.dv);
-    if cross.length() > 1e-9 * at.du.length() * at.dv.length() && cross.length() > 0.0 {
-        return cross.normalize();
+    if let Some(normal) = upright(&ground.tangents(uv)) {
+        return normal;
     }
     let middle = 0.5 * (domain.min + domain.max);
     let mut step = slightly;
@@ -80,6 +84,13 @@ pub(super) fn normal(ground: &Ground, uv: DVec2, domain: &UvRect, slightly: DVec
         step *= 32.0;
     }
     DVec3::Z
+}
+
+/// The unit normal, where derivatives give one.
+fn upright(at: &Tangents) -> Option<DVec3> {
+    let cross = at.du.cross(at.dv);
+    (cross.length() > 1e-9 * at.du.length() * at.dv.length() && cross.length() > 0.0)
+        .then(|| cross.normalize())
 }
 
 /// Corners of all cells, found along lines of constant u and of constant v.

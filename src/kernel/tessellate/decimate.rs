@@ -1,0 +1,111 @@
+//! Vertices inside a face that the tolerance does not need are taken out again.
+//!
+//! Refinement puts vertices where triangles are worst at the time; later ones make some of the earlier superfluous. A vertex
+//! is drawn onto a neighbour, and stays away when every triangle that changes keeps the tolerance, faces the
+//! same way and is no sliver in parameters. Vertices of the boundary stay.
+
+use super::refine::{Refinement, Vertices};
+use super::untangle::facing;
+
+/// Rounds over the vertices at most.
+const ROUNDS: usize = 3;
+/// Triangles in parameters are at least this high for their longest side.
+const THINNEST: f64 = 2e-3;
+
+/// Takes vertices from number `fixed` on out of `triangles` as far as `refinement` allows; asks now and then whether
+/// the work is `cancelled`.
+pub(super) fn decimate(
+    triangles: &mut Vec<[u32; 3]>,
+    vertices: &Vertices,
+    fixed: usize,
+    refinement: &Refinement,
+    cancelled: &dyn Fn() -> bool,
+) {
+    let mut around: Vec<Vec<u32>> = vec![Vec::new(); vertices.uvs.len()];
+    for (k, t) in triangles.iter().enumerate() {
+        t.iter().for_each(|v| around[*v as usize].push(k as u32));
+    }
+    let mut gone = vec![false; triangles.len()];
+    let mut waiting: Vec<u32> = (fixed as u32..vertices.uvs.len() as u32).collect();
+    for _ in 0..ROUNDS {
+        if waiting.is_empty() || cancelled() {
+            break;
+        }
+        let mut again = Vec::new();
+        // The last ones in came where little was missing.
+        for vertex in waiting.into_iter().rev() {
+            let star = around[vertex as usize].clone();
+            let Some(onto) = target(vertex, &star, triangles, vertices, refinement) else { continue };
+            for k in star {
+                let t = &mut triangles[k as usize];
+                if t.contains(&onto) {
+                    gone[k as usize] = true;
+                    for v in *t {
+                        around[v as usize].retain(|other| *other != k);
+                    }
+                } else {
+                    t.iter_mut().filter(|v| **v == vertex).for_each(|v| *v = onto);
+                    around[onto as usize].push(k);
+                }
+            }
+            around[vertex as usize].clear();
+            let beside = around[onto as usize].iter().flat_map(|k| triangles[*k as usize]);
+            again.extend(beside.filter(|v| *v as usize >= fixed));
+        }
+        again.sort_unstable();
+        again.dedup();
+        again.retain(|v| !around[*v as usize].is_empty());
+        waiting = again;
+    }
+    let mut k = 0;
+    triangles.retain(|_| {
+        k += 1;
+        !gone[k - 1]
+    });
+}
+
+/// The neighbour that a vertex can be drawn onto.
+fn target(
+    vertex: u32,
+    star: &[u32],
+    triangles: &[[u32; 3]],
+    vertices: &Vertices,
+    refinement: &Refinement,
+) -> Option<u32> {
+    // The ring round it, once round.
+    let next = |from: u32| {
+        star.iter().find_map(|k| {
+            let t = triangles[*k as usize];
+            (0..3).find(|i| t[*i] == vertex && t[(i + 1) % 3] == from).map(|i| t[(i + 2) % 3])
+        })
+    };
+    let first = triangles[*star.first()? as usize].into_iter().find(|v| *v != vertex)?;
+    let mut ring = vec![first];
+    while ring.len() <= star.len() {
+        match next(ring[ring.len() - 1])? {
+            v if v == first => break,
+            v => ring.push(v),
+        }
+    }
+    if ring.len() != star.len() || ring.len() < 3 {
+        return None;
+    }
+    let count = ring.len();
+    let made = |onto: usize| (1..count - 1).map(move |i| [onto, (onto + i) % count, (onto + i + 1) % count]);
+    let height = |t: [usize; 3]| {
+        let [a, b, c] = t.map(|i| vertices.uvs[ring[i] as usize] * refinement.scale);
+        let area = (b - a).perp_dot(c - a) * (refinement.scale.x * refinement.scale.y).signum();
+        area / (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared())
+    };
+    let mut choices: Vec<(f64, usize)> = (0..count)
+        .map(|onto| (made(onto).map(height).fold(f64::INFINITY, f64::min), onto))
+        .filter(|(least, _)| *least > THINNEST)
+        .collect();
+    choices.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let fits = |onto: usize| {
+        let named = made(onto).map(|t| t.map(|i| ring[i]));
+        named.clone().all(|t| facing(&t, vertices) > 0.0)
+            && named.clone().all(|t| refinement.holds(vertices, t))
+    };
+    choices.into_iter().find(|(_, onto)| fits(*onto)).map(|(_, onto)| ring[onto])
+}
