@@ -16,7 +16,7 @@ use crate::inspect::Length;
 use crate::kernel::face::Face;
 use crate::kernel::tessellate::{FaceMesh, TessellateError, TessellationOptions};
 use crate::kernel::view::Bounds;
-use crate::meshing::{Distance, ModelMesh, Work, measure_each, mesh_faces};
+use crate::meshing::{Distance, ModelMesh, Work, measure_each, mesh_faces, orientations};
 use crate::scene::records::{FaceRecord, ModelRecord};
 
 /// A format that can be written.
@@ -244,15 +244,16 @@ fn write(model: &ModelRecord, meshed: &ModelMesh, format: Format, path: &Path) -
         .map(|(k, f)| f.name.clone().unwrap_or_else(|| format!("face {}", k + 1)))
         .collect();
     let part = |face: &FaceRecord| face.part.and_then(|p| model.parts.get(p)).map_or("", |p| p.name.as_str());
+    let senses: Vec<bool> = model.faces.iter().map(|f| f.reversed).collect();
     let groups: Vec<Group> = model
         .faces
         .iter()
         .zip(&meshed.faces)
-        .zip(&names)
-        .filter_map(|((face, mesh), name)| {
+        .zip(names.iter().zip(orientations(meshed, &senses)))
+        .filter_map(|((face, mesh), (name, reversed))| {
             let mesh = mesh.as_ref().ok().filter(|m| !m.triangles.is_empty())?;
             let colour = face.colour.unwrap_or(PLAIN);
-            Some(Group { name, part: part(face), colour, mesh, reversed: face.reversed })
+            Some(Group { name, part: part(face), colour, mesh, reversed })
         })
         .collect();
     let bytes = match format {

@@ -8,7 +8,9 @@
 
 pub mod measure;
 pub mod model_mesh;
+pub mod orient;
 pub mod seams;
 
 pub use measure::{Distance, measure, measure_each, measure_face};
 pub use model_mesh::{ModelMesh, Work, mesh_faces, remesh_faces};
+pub use orient::orientations;
