@@ -29,6 +29,11 @@ pub struct ModelMesh {
 }
 
 impl ModelMesh {
+    /// Meshes made apart, one for each face, taken together.
+    pub fn of(faces: Vec<Result<FaceMesh, TessellateError>>) -> Self {
+        Self { faces, ..Self::default() }
+    }
+
     /// Number of triangles.
     pub fn triangle_count(&self) -> usize {
         self.faces.iter().flatten().map(|m| m.triangles.len()).sum()

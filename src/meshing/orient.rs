@@ -132,7 +132,7 @@ mod tests {
                 let [a, b, c] = outwards[k];
                 face(if turned(k) { [a, c, b] } else { [a, b, c] })
             });
-            let mesh = ModelMesh { faces: faces.collect(), ..ModelMesh::default() };
+            let mesh = ModelMesh::of(faces.collect());
             let found = orientations(&mesh, &[false; 4]);
             if wrong == 0 || wrong == 15 {
                 // The file's senses fit together: they stay, inwards as well (a void).

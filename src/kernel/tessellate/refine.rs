@@ -14,6 +14,7 @@ use super::flatness::Flatness;
 use super::line_error::distance_to_segment;
 use super::options::{TessellateError, TessellationOptions};
 use super::outline::Ground;
+use super::plane::Plane;
 use super::triangulate::{Chord, Region};
 use super::untrimmed::normal;
 use crate::kernel::trim::UvRect;
@@ -37,8 +38,8 @@ pub struct Refinement<'a> {
     pub ground: &'a Ground<'a>,
     /// Proven bounds, when they are asked for.
     pub flatness: Option<&'a Flatness<'a>>,
-    /// Whether the surface is flat, so that only angle and length count.
-    pub planar: bool,
+    /// The plane of a flat surface, on which only length counts; places in the triangulation lie on it.
+    pub plane: Option<&'a Plane>,
     /// The tolerance and the other limits.
     pub options: &'a TessellationOptions,
     /// Places in the triangulation per native parameters; for planes the place is found by position.
@@ -178,7 +179,7 @@ impl Refinement<'_> {
         bounds: &[bool; 3],
         at: DVec2,
     ) -> Option<usize> {
-        if self.planar {
+        if self.plane.is_some() {
             return None;
         }
         let p = self.ground.point(at);
@@ -199,7 +200,8 @@ impl Refinement<'_> {
         hint: FixedVertexHandle,
     ) -> Option<Vec<[FixedVertexHandle; 3]>> {
         let number = vertices.uvs.len() as u32;
-        let around = region.insert(uv * self.scale, number, hint)?;
+        let place = self.plane.map_or(uv * self.scale, |plane| plane.coordinates(self.ground.point(uv)));
+        let around = region.insert(place, number, hint)?;
         self.add(vertices, uv);
         Some(around)
     }
@@ -242,7 +244,8 @@ impl Refinement<'_> {
                 refined.stubborn.insert([numbers[k], numbers[(k + 1) % 3]]);
             }
         }
-        let lengths = [0, 1, 2].map(|k| p[k].distance(p[(k + 1) % 3]));
+        let corners_at = numbers.map(|n| vertices.positions[n as usize]);
+        let lengths = [0, 1, 2].map(|k| corners_at[k].distance(corners_at[(k + 1) % 3]));
         if let Some(longest) = self.options.max_edge {
             let worst = free_longest(&lengths, &bounds);
             if let Some(k) = worst
@@ -252,7 +255,7 @@ impl Refinement<'_> {
             }
         }
         if let Some(limit) = self.options.max_angle
-            && !self.planar
+            && !self.plane.is_some()
         {
             let angles = [0, 1, 2].map(|k| normals[k].angle_between(normals[(k + 1) % 3]));
             for k in (0..3).filter(|k| bounds[*k] && angles[*k] > limit) {
@@ -330,10 +333,11 @@ impl Refinement<'_> {
         let gap = triangle.map(|n| p_gap(vertices, n)).into_iter().fold(0.0, f64::max);
         let allowed = (self.options.tolerance - gap).max(0.5 * self.options.tolerance);
         let (p, normals) = (of(&vertices.on_surface), of(&vertices.normals));
+        let at = of(&vertices.positions);
         let sides = [0, 1, 2].map(|k| (k, (k + 1) % 3));
         let longest = self.options.max_edge.unwrap_or(f64::INFINITY);
         let widest = self.options.max_angle.unwrap_or(f64::INFINITY);
-        sides.iter().all(|(a, b)| p[*a].distance(p[*b]) <= longest)
+        sides.iter().all(|(a, b)| at[*a].distance(at[*b]) <= longest)
             && sides
                 .iter()
                 .all(|(a, b)| widest.is_infinite() || normals[*a].angle_between(normals[*b]) <= widest)
@@ -345,7 +349,7 @@ impl Refinement<'_> {
     /// What counts is the distance from the triangle's plane. Where the image of an edge leaves the triangle sideways its
     /// neighbour lies under it, in a plane turned by about the turn of the normal within the triangle.
     fn error(&self, uv: [DVec2; 3], p: [DVec3; 3], normals: [DVec3; 3], allowed: f64) -> Found {
-        if self.planar {
+        if self.plane.is_some() {
             return Found::default();
         }
         let edges = [0, 1, 2].map(|k| p[(k + 1) % 3] - p[k]);

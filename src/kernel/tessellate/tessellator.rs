@@ -144,7 +144,7 @@ impl<'a> Tessellator<'a> {
         let refinement = Refinement {
             ground: &self.ground,
             flatness,
-            planar: self.plane.is_some(),
+            plane: self.plane.as_ref(),
             options: &self.options,
             scale,
             domain: self.face.domain,
