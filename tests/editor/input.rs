@@ -8,6 +8,7 @@ use bevy::window::{CursorMoved, FileDragAndDrop, RequestRedraw, WindowEvent};
 use hairline::editor::EditorPlugin;
 use hairline::editor::camera::ViewCamera;
 use hairline::editor::picking::{LeftButton, Picker};
+use hairline::editor::settings::Settings;
 use hairline::editor::viewport::{Pointer, Viewport};
 
 /// An app whose viewport is (100, 100) to (900, 700), with the pointer in it.
@@ -103,4 +104,20 @@ fn a_click_is_where_the_button_went_down_with_the_keys_held_then() {
     app.update();
     assert!(app.world().resource::<LeftButton>().held.ctrl);
     assert_eq!(app.world().resource::<Picker>().wanted, Some(UVec2::new(300, 300)));
+}
+
+#[test]
+fn of_two_keys_in_one_frame_the_second_sees_what_the_first_did() {
+    let mut app = app();
+    let shown = |app: &App| app.world().resource::<Settings>().properties;
+    let before = shown(&app);
+    for state in [ButtonState::Pressed, ButtonState::Released, ButtonState::Pressed, ButtonState::Released] {
+        key(&mut app, KeyCode::KeyN, Key::Character("n".into()), state);
+    }
+    app.update();
+    assert_ne!(shown(&app), before, "the first one only");
+    app.update();
+    assert_eq!(shown(&app), before, "then the second");
+    app.update();
+    assert_eq!(shown(&app), before, "and no more");
 }
