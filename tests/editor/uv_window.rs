@@ -43,7 +43,7 @@ fn extent(changed: &[(u16, u16)]) -> (u16, u16) {
 }
 
 #[test]
-#[ignore = "the positions it clicks at have not been confirmed on an idle machine yet"]
+#[ignore = "marking the new loop changes more of the picture than the hole, which the test does not expect yet"]
 fn a_control_point_is_dragged_in_the_panel_and_the_picture_follows() {
     let settings = tempfile::tempdir().expect("a temporary folder");
     let mut editor = Editor::start(settings.path());
