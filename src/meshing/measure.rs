@@ -126,7 +126,7 @@ pub fn measure_face(face: &Face, mesh: &FaceMesh, density: usize, most: usize) -
 }
 
 /// A trimmed face to measure from: its surface and its outline as a fine polyline.
-struct Target<'a> {
+pub(super) struct Target<'a> {
     face: &'a Face,
     ground: Ground<'a>,
     /// Points of the outline.
@@ -142,7 +142,7 @@ struct Target<'a> {
 const PARTS: usize = 16;
 
 impl<'a> Target<'a> {
-    fn new(face: &'a Face) -> Self {
+    pub(super) fn new(face: &'a Face) -> Self {
         let ground = Ground::new(face);
         let outline = Outline::new(face, &ground, 1e-6 * face.bounds.diagonal());
         let curves: Vec<BezierCurve3> =
@@ -163,7 +163,7 @@ impl<'a> Target<'a> {
 
     /// Foot of `p` on the surface, searched from `start`, and its distance; and the distance of `p` from the trimmed face
     /// where that is more than `most`.
-    fn offer(&self, p: DVec3, start: DVec2, most: f64) -> (DVec2, f64, f64) {
+    pub(super) fn offer(&self, p: DVec3, start: DVec2, most: f64) -> (DVec2, f64, f64) {
         let (mut foot, mut off) = project(&self.ground, p, start);
         let outside = |foot: DVec2| self.face.classify_native(foot.x, foot.y) != Side::In;
         let from_face =
