@@ -56,7 +56,7 @@ impl Work<'_> {
 /// Rounds of shortening chords before and after meshing.
 const ROUNDS: usize = 8;
 /// Rounds in which faces are meshed again for chords that cross or stand in the way.
-const MESH_ROUNDS: usize = 4;
+const MESH_ROUNDS: usize = 5;
 /// Share of the tolerance within which outlines meet.
 const REACH: f64 = 0.5;
 /// The same as a part of the model's size, at most and at least.
@@ -116,20 +116,22 @@ pub fn remesh_faces(
     let seams = Seams::new(&prepared, reach);
     let mut division = Division::new(&seams, &prepared);
     (work.progress)(0.25);
+    let mut boundaries = division.boundaries();
+    let mut open: Vec<usize> = (0..faces.len()).collect();
     for _ in 0..ROUNDS {
         if (work.cancelled)() {
             return Err(TessellateError::Cancelled);
         }
-        let long = division.long_chords();
+        let long = division.long_chords(&open, &boundaries);
         if long.is_empty() {
             break;
         }
-        division.shorten(&long);
+        open = division.shorten(&long).into_iter().collect();
+        division.renew(&open, &mut boundaries);
     }
     (work.progress)(0.35);
     let mut meshes: Vec<Option<Result<FaceMesh, TessellateError>>> =
         failed.into_iter().map(|e| e.map(Err)).collect();
-    let mut boundaries = division.boundaries();
     for (face, mesh) in meshes.iter_mut().enumerate() {
         let same = !changed(face) && previous.boundaries.get(face).is_some_and(|b| *b == boundaries[face]);
         if mesh.is_none() && same {
@@ -256,14 +258,20 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
         (0..self.faces.len()).into_par_iter().map(|face| self.boundary(face)).collect()
     }
 
-    /// Chords that are too long for some face.
-    fn long_chords(&self) -> Vec<(usize, LongChord)> {
-        let of = |face: usize| {
-            let Some(tessellator) = &self.faces[face] else { return Vec::new() };
-            let long = tessellator.long_chords(&self.boundary(face));
-            long.into_iter().map(|chord| (face, chord)).collect()
+    /// The chords of `faces` anew.
+    fn renew(&self, faces: &[usize], boundaries: &mut [Boundary]) {
+        let own: Vec<Boundary> = faces.par_iter().map(|face| self.boundary(*face)).collect();
+        faces.iter().zip(own).for_each(|(face, own)| boundaries[*face] = own);
+    }
+
+    /// Chords that are too long for one of `faces`.
+    fn long_chords(&self, faces: &[usize], boundaries: &[Boundary]) -> Vec<(usize, LongChord)> {
+        let of = |face: &usize| {
+            let Some(tessellator) = &self.faces[*face] else { return Vec::new() };
+            let long = tessellator.long_chords(&boundaries[*face]);
+            long.into_iter().map(|chord| (*face, chord)).collect()
         };
-        let all: Vec<Vec<_>> = (0..self.faces.len()).into_par_iter().map(of).collect();
+        let all: Vec<Vec<_>> = faces.par_iter().map(of).collect();
         all.into_iter().flatten().collect()
     }
 

@@ -61,8 +61,6 @@ type Runs<'a> = Vec<(RunAddress, &'a Run)>;
 
 /// Share of the tolerance that chords keep whatever gaps there are.
 const LEAST_SHARE: f64 = 0.3;
-/// Samples of a run for its box.
-const BOX_SAMPLES: usize = 8;
 /// Stretches between the same vertices that each one is compared with at most.
 const MOST_BESIDE: usize = 24;
 /// Stretches of one face make a seam within this part of the reach.
@@ -88,12 +86,25 @@ impl Seams {
                 t.outline().runs().map(move |(chain, run, r)| (RunAddress { face, chain, run }, r))
             })
             .collect();
-        let lengths: Vec<f64> = runs.iter().map(|(_, run)| rough_length(run)).collect();
-        let cuts = cuts(&runs, &lengths, reach);
+        let lengths: Vec<f64> = runs.iter().map(|(_, run)| rough_part(run, 0.0, run.range())).collect();
+        let mut cuts: Vec<Vec<f64>> = runs.iter().map(|(_, run)| vec![0.0, run.range()]).collect();
+        let whole = Self::between(&runs, &cuts, reach);
+        // Runs that have found their like from end to end need no cuts, whatever else ends on them.
+        let single: Vec<bool> =
+            whole.stretches.iter().map(|s| whole.seams[s.seam].stretches.len() == 1).collect();
+        if add_cuts(&runs, &single, &lengths, reach, &mut cuts) {
+            Self::between(&runs, &cuts, reach)
+        } else {
+            whole
+        }
+    }
+
+    /// The seams of `runs` divided at `cuts`.
+    fn between(runs: &Runs, cuts: &[Vec<f64>], reach: f64) -> Self {
         let mut stretches = Vec::new();
         let mut places: Vec<DVec3> = Vec::new();
         let mut own: Vec<f64> = Vec::new();
-        for ((address, run), cuts) in runs.iter().zip(&cuts) {
+        for ((address, run), cuts) in runs.iter().zip(cuts) {
             for pair in cuts.windows(2) {
                 stretches.push(Stretch {
                     address: *address,
@@ -254,8 +265,9 @@ impl Seams {
                     let off = |s: f64| run.point(s).distance(source.point);
                     let mut s = run.project(source.point, guess, (low, to));
                     let step = run.point(guess).distance(samples[k - 1].point);
-                    if off(s) > FAR * step || !(s > low && s < to) {
-                        let nearest = run.nearest(source.point).0;
+                    if (off(s) > FAR * step || !(s > low && s < to))
+                        && let Some((nearest, _)) = run.nearest_within(source.point, off(s))
+                    {
                         let near = run.project(source.point, nearest.clamp(low, to), (low, to));
                         s = if off(near) < off(s) { near } else { s };
                     }
@@ -278,51 +290,57 @@ pub fn run_of<'f, 'a>(
     Some((face, face.outline().chains.get(address.chain)?.get(address.run)?))
 }
 
+/// About the length of a run between two parameters: of each piece between its chord and its control polygon
+/// (Gravesen 1997), of a part of one its share.
 fn rough_part(run: &Run, from: f64, to: f64) -> f64 {
-    let count = BOX_SAMPLES * run.pieces.len();
-    let at = |k: usize| run.point(from + (to - from) * k as f64 / count as f64);
-    (0..count).map(|k| at(k).distance(at(k + 1))).sum()
+    let (first, last) = (from as usize, (to.ceil() as usize).clamp(1, run.pieces.len()));
+    let piece = |k: usize| {
+        let curve = &run.pieces[k].space;
+        let n = curve.degree() as f64;
+        let polygon: f64 = curve.points.windows(2).map(|p| p[0].distance(p[1])).sum();
+        let length = (2.0 * curve.start().distance(curve.end()) + (n - 1.0) * polygon) / (n + 1.0);
+        length * ((to - k as f64).min(1.0) - (from - k as f64).max(0.0))
+    };
+    (first..last).map(piece).sum()
 }
 
-fn rough_length(run: &Run) -> f64 {
-    rough_part(run, 0.0, run.range())
-}
-
-/// Parameters of each run at its ends and where ends of others lie on it.
-fn cuts(runs: &Runs, lengths: &[f64], reach: f64) -> Vec<Vec<f64>> {
-    let boxes: Vec<Bounds> = runs
+/// Adds to `cuts` the parameters of `single` runs where ends of others of them lie on them; whether there are any.
+fn add_cuts(runs: &Runs, single: &[bool], lengths: &[f64], reach: f64, cuts: &mut [Vec<f64>]) -> bool {
+    let open: Vec<usize> = (0..runs.len()).filter(|k| single[*k]).collect();
+    let boxes: Vec<Bounds> = open
         .iter()
-        .map(|(_, run)| Bounds::of(run.pieces.iter().flat_map(|p| p.space.points.iter().copied())))
+        .map(|k| Bounds::of(runs[*k].1.pieces.iter().flat_map(|p| p.space.points.iter().copied())))
         .collect();
     let tree = BoundsTree::new(&boxes);
-    let mut cuts: Vec<Vec<f64>> = runs.iter().map(|(_, run)| vec![0.0, run.range()]).collect();
     let of_face = |face: usize| {
         let first = runs.partition_point(|r| r.0.face < face);
         runs[first..].iter().take_while(move |r| r.0.face == face)
     };
-    let mut points: Vec<DVec3> = runs.iter().flat_map(|(_, run)| run.ends()).collect();
+    let mut points: Vec<DVec3> = open.iter().flat_map(|k| runs[*k].1.ends()).collect();
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z)));
     points.dedup();
+    let mut found = false;
     for point in points {
         tree.within(point, CUT * reach, |k| {
-            let run = runs[k].1;
+            let (k, run) = (open[k], runs[open[k]].1);
             let near = (CUT * reach).min(SHARE * lengths[k]);
             let away = |s: f64| run.point(s).distance(point) > 2.0 * near;
             if away(0.0) && away(run.range()) {
-                let (s, off) = run.nearest(point);
+                let Some((s, off)) = run.nearest_within(point, near) else { return };
                 // Where the face has a vertex of its own it is that which meets the point: this is the other side of a
                 // sliver or spike.
                 let own = || {
                     of_face(runs[k].0.face).any(|(_, r)| r.ends().iter().any(|e| e.distance(point) <= near))
                 };
-                if off <= near && cuts[k].iter().all(|c| away(*c)) && (off <= SAME_FACE * reach || !own()) {
+                if cuts[k].iter().all(|c| away(*c)) && (off <= SAME_FACE * reach || !own()) {
                     cuts[k].push(s);
+                    found = true;
                 }
             }
         });
     }
     cuts.iter_mut().for_each(|c| c.sort_by(f64::total_cmp));
-    cuts
+    found
 }
 
 /// How far each end may be from others that are the same vertex: less than the lengths of both stretches that meet there.
@@ -426,27 +444,35 @@ fn clusters(ends: &[(DVec3, f64)], one: &[[usize; 2]]) -> (Vec<usize>, Vec<DVec3
 /// Whether `b` runs along `a`; then whether in the same direction, and how far off.
 fn beside(a: &Run, along: &Stretch, b: &Run, other: &Stretch, reach: f64) -> Option<(bool, f64)> {
     let at = |stretch: &Stretch, share: f64| stretch.range.0 + (stretch.range.1 - stretch.range.0) * share;
-    let near = |p: DVec3| {
-        let (low, high) = along.range;
-        let best = (0..=16)
-            .map(|k| low + (high - low) * f64::from(k) / 16.0)
-            .min_by(|x, y| a.point(*x).distance_squared(p).total_cmp(&a.point(*y).distance_squared(p)))?;
-        let s = a.project(p, best, along.range);
-        let off = a.point(s).distance(p);
-        (off <= reach).then_some((s, off))
+    let closed = along.ends[0] == along.ends[1];
+    let opposite = !closed && along.ends != other.ends;
+    let near = |p: DVec3, guess: f64| {
+        let foot = |guess: f64| {
+            let s = a.project(p, guess, along.range);
+            Some((s, a.point(s).distance(p))).filter(|f| f.1 <= reach)
+        };
+        // Mostly the two are run through alike.
+        let guess = at(along, if opposite { 1.0 - guess } else { guess });
+        (!closed).then(|| foot(guess)).flatten().or_else(|| {
+            let best = (0..=16)
+                .map(|k| at(along, f64::from(k) / 16.0))
+                .min_by(|x, y| a.point(*x).distance_squared(p).total_cmp(&a.point(*y).distance_squared(p)))?;
+            foot(best)
+        })
     };
-    let places = [0.3, 0.5, 0.7, 0.12, 0.88].map(|share| near(b.point(at(other, share))));
     let mut off = 0.0f64;
-    for place in places {
-        off = off.max(place?.1);
+    let mut places = [0.0; 5];
+    for (place, share) in places.iter_mut().zip([0.5, 0.3, 0.7, 0.12, 0.88]) {
+        let found = near(b.point(at(other, share)), share)?;
+        *place = found.0;
+        off = off.max(found.1);
     }
-    let (first, last) = (places[0]?.0, places[2]?.0);
-    if along.ends[0] != along.ends[1] && along.ends != other.ends {
+    if closed {
+        // By the order of places.
+        return Some((places[1] < places[2], off));
+    }
+    if opposite {
         return (along.ends[0] == other.ends[1]).then_some((false, off));
     }
-    if along.ends[0] != along.ends[1] {
-        return Some((true, off));
-    }
-    // Closed: by the order of places.
-    Some((first < last, off))
+    Some((true, off))
 }

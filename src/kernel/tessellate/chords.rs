@@ -40,8 +40,10 @@ const WIDEST_TURN: f64 = 2.0;
 const SMOOTH: f64 = 0.99;
 /// Samples of the curvature of a stretch, about.
 const PROBES: usize = 64;
-/// Numbers of chords, each a fortieth more than the one before, that are tried before chords are halved.
+/// Numbers of chords, each a fortieth more than the one before, that are tried before each goes as far as it can.
 const ROUNDS: usize = 9;
+/// Halvings of the step of such a chord.
+const HALVINGS: usize = 40;
 /// Runs within this part of the tolerance are points.
 const NOTHING: f64 = 1e-6;
 /// Most vertices on one stretch.
@@ -133,7 +135,13 @@ fn demand(curve: &BezierCurve3, limits: &ChordLimits, probes: usize) -> impl Ite
 
 /// Divides the pieces `first..end` of a run, a smooth stretch.
 fn stretch(run: &Run, first: usize, end: usize, limits: &ChordLimits, places: &mut Vec<f64>) {
-    let probes = (PROBES / (end - first)).clamp(4, 16);
+    let line = |k: usize| run.pieces[k].space.degree() == 1;
+    if end == first + 1 && line(first) && limits.length.is_infinite() {
+        places.push(end as f64);
+        return;
+    }
+    let simple = run.pieces[first..end].iter().all(|p| p.space.degree() <= 3);
+    let probes = (PROBES / (end - first)).clamp(4, if simple { 8 } else { 16 });
     let demands: Vec<f64> =
         run.pieces[first..end].iter().flat_map(|p| demand(&p.space, limits, probes)).collect();
     let total: f64 = demands.iter().sum();
@@ -157,9 +165,56 @@ fn stretch(run: &Run, first: usize, end: usize, limits: &ChordLimits, places: &m
         }
         before = count;
     }
-    let cuts = shares(&demands, least, probes);
-    for pair in cuts.windows(2) {
-        halve(run, (offset + pair[0], offset + pair[1]), limits.tolerance, 24, places);
+    farthest(run, (offset, end as f64), limits, places);
+}
+
+/// Divides where even shares do not do (polylines, say, have no curvature but in their corners): each chord goes as far as it
+/// can.
+fn farthest(run: &Run, (start, end): (f64, f64), limits: &ChordLimits, places: &mut Vec<f64>) {
+    let mut from = start;
+    while from < end {
+        let fits = |to: f64| {
+            run.point(from).distance(run.point(to)) <= limits.length
+                && is_within(run, from, to, limits.tolerance)
+        };
+        // Doubling steps, then halving the last: ends at joints where it can.
+        let mut good = from;
+        let mut step = 0.25;
+        let mut bad = end;
+        loop {
+            let to = (from + step).min(end);
+            if !fits(to) {
+                bad = to;
+                break;
+            }
+            good = to;
+            if to >= end {
+                break;
+            }
+            step *= 2.0;
+        }
+        for _ in 0..HALVINGS {
+            if good >= end || good > from && bad - good < 0.05 * (good - from) {
+                break;
+            }
+            let middle = 0.5 * (good + bad);
+            let joint = middle.round();
+            let to = if joint > good && joint < bad { joint } else { middle };
+            if fits(to) {
+                good = to;
+            } else {
+                bad = to;
+            }
+        }
+        if !(good > from) {
+            good = bad;
+        }
+        places.push(good);
+        from = good;
+        if places.len() as f64 > MOST {
+            places.push(end);
+            break;
+        }
     }
 }
 
@@ -198,16 +253,6 @@ fn is_within(run: &Run, from: f64, to: f64, tolerance: f64) -> bool {
             within(&curve.restrict(low, high), a, b, tolerance)
         }
     })
-}
-
-fn halve(run: &Run, (from, to): (f64, f64), tolerance: f64, depth: u32, places: &mut Vec<f64>) {
-    let middle = 0.5 * (from + to);
-    if depth == 0 || middle <= from || middle >= to || is_within(run, from, to, tolerance) {
-        places.push(to);
-        return;
-    }
-    halve(run, (from, middle), tolerance, depth - 1, places);
-    halve(run, (middle, to), tolerance, depth - 1, places);
 }
 
 /// The paper's way: each piece by itself, halved or divided at the farthest control point.

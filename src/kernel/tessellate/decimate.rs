@@ -9,6 +9,8 @@ use super::untangle::facing;
 
 /// Rounds over the vertices at most.
 const ROUNDS: usize = 3;
+/// Neighbours that a vertex is tried on at most, those that make the roundest triangles first.
+const CHOICES: usize = 4;
 /// Triangles in parameters are at least this high for their longest side.
 const THINNEST: f64 = 2e-3;
 
@@ -102,10 +104,18 @@ fn target(
         .filter(|(least, _)| *least > THINNEST)
         .collect();
     choices.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let (uv, p) = (vertices.uvs[vertex as usize], vertices.on_surface[vertex as usize]);
+    let covers = |t: &[u32; 3]| {
+        let corners = t.map(|v| vertices.uvs[v as usize]);
+        let sides = [0, 1, 2].map(|k| (corners[(k + 1) % 3] - corners[k]).perp_dot(uv - corners[k]));
+        sides.iter().all(|x| *x >= 0.0) || sides.iter().all(|x| *x <= 0.0)
+    };
     let fits = |onto: usize| {
         let named = made(onto).map(|t| t.map(|i| ring[i]));
-        named.clone().all(|t| facing(&t, vertices) > 0.0)
-            && named.clone().all(|t| refinement.holds(vertices, t))
+        // The vertex itself is mostly farthest off, and that is known already.
+        named.clone().all(|t| !covers(&t) || refinement.reaches(vertices, &t, p))
+            && named.clone().all(|t| facing(&t, vertices) > 0.0)
+            && refinement.hold(vertices, named)
     };
-    choices.into_iter().find(|(_, onto)| fits(*onto)).map(|(_, onto)| ring[onto])
+    choices.into_iter().take(CHOICES).find(|(_, onto)| fits(*onto)).map(|(_, onto)| ring[onto])
 }

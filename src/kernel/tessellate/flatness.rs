@@ -3,58 +3,159 @@
 //! For a patch `A / w`, a plane through `p` with the normal `n`: `F = n . (A - w p)` is a polynomial whose Bernstein
 //! coefficients on the triangle's box are at hand, so that nothing is lost to how the surface runs within the plane. With
 //! constant second derivatives `F = linear - 1/2 sum_ij l_i l_j F''[e_ij, e_ij]` in barycentric coordinates l and edges
-//! e_ij; what they vary over the box adds an eighth of it per squared extent (Filip, Magedson & Markot 1986). Where that
+//! e_ij, whose largest value is known exactly; what they vary over the box adds an eighth of it per squared extent (Filip, Magedson & Markot 1986). Where that
 //! does not decide, the triangle is divided into four and bounded again against the same plane. Lines between
 //! patches that are not smooth add the jump of the derivative. So the bound holds for rational surfaces and tends to the
 //! true distance.
 
-use glam::{DVec2, DVec3, DVec4};
+use std::ops::{Add, Mul};
+
+use glam::{DVec2, DVec3};
 
 use super::outline::Ground;
 use crate::kernel::bezier::BezierPatch;
+use crate::kernel::bezier::bernstein::{self, MAX_COUNT};
 use crate::kernel::query::Sheet;
 
 /// A plane: a point of it and the unit normal.
 pub type Supporting = (DVec3, DVec3);
 
-/// Part of a patch: homogeneous control points about the face's origin.
+/// Bernstein coefficients of functions over a part of a patch: how far the surface is from a plane (or two), times its
+/// weight, and last the weight. Taken from the control points before anything is cut: numbers are cheaper to cut than points.
+trait Height: Copy + Add<Output = Self> + Mul<f64, Output = Self> {
+    /// The functions.
+    fn heights(self) -> impl AsRef<[f64]>;
+    /// The weight.
+    fn weight(self) -> f64;
+}
+
+impl Height for DVec2 {
+    fn heights(self) -> impl AsRef<[f64]> {
+        [self.x]
+    }
+    fn weight(self) -> f64 {
+        self.y
+    }
+}
+
+impl Height for DVec3 {
+    fn heights(self) -> impl AsRef<[f64]> {
+        [self.x, self.y]
+    }
+    fn weight(self) -> f64 {
+        self.z
+    }
+}
+
+/// Part of a patch: its coefficients stand in [`Nets::values`] from `first` on.
+#[derive(Clone, Copy)]
 struct Net {
     degrees: [usize; 2],
-    points: Vec<DVec4>,
+    first: usize,
     /// Native extent.
-    size: DVec2,
+    low: DVec2,
+    high: DVec2,
 }
 
-impl Net {
-    /// The part of `patch` over native `low..high`.
-    fn new(patch: &BezierPatch, origin: DVec3, low: DVec2, high: DVec2) -> Self {
-        let (m, n) = (patch.degree_u, patch.degree_v);
-        let home = patch.points.iter().zip(&patch.weights);
-        let mut points: Vec<DVec4> = home.map(|(p, w)| ((*p - origin) * *w).extend(*w)).collect();
-        let a = patch.local(low).clamp(DVec2::ZERO, DVec2::ONE);
-        let b = patch.local(high).clamp(a, DVec2::ONE);
-        for row in 0..=m {
-            cut(&mut points, row * (n + 1), 1, n + 1, (a.y, b.y));
+/// Parts of patches, those of a divided triangle behind those of the whole.
+struct Nets<V> {
+    nets: Vec<Net>,
+    values: Vec<V>,
+}
+
+impl<V: Height> Nets<V> {
+    /// Adds the part over `low..high` of a net whose coefficients were put in last.
+    fn cut(
+        &mut self,
+        degrees: [usize; 2],
+        first: usize,
+        (from, to): (DVec2, DVec2),
+        (low, high): (DVec2, DVec2),
+    ) {
+        let [m, n] = degrees;
+        let values = &mut self.values[first..];
+        let size = to - from;
+        let a = ((low - from) / size).clamp(DVec2::ZERO, DVec2::ONE);
+        let b = ((high - from) / size).clamp(a, DVec2::ONE);
+        if a.y > 0.0 || b.y < 1.0 {
+            for row in 0..=m {
+                cut(values, row * (n + 1), 1, n + 1, (a.y, b.y));
+            }
         }
-        for column in 0..=n {
-            cut(&mut points, column, n + 1, m + 1, (a.x, b.x));
+        if a.x > 0.0 || b.x < 1.0 {
+            for column in 0..=n {
+                cut(values, column, n + 1, m + 1, (a.x, b.x));
+            }
         }
-        Self { degrees: [m, n], points, size: high - low }
+        self.nets.push(Net { degrees, first, low, high });
     }
 
-    fn weights(&self) -> (f64, f64) {
-        let all = self.points.iter().map(|h| h.w);
-        all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), w| (a.min(w), b.max(w)))
+    /// Adds the parts over `low..high` of the nets from number `parent` to `end`.
+    fn narrow(&mut self, (parent, end): (usize, usize), low: DVec2, high: DVec2) {
+        let before = self.nets.len();
+        for strict in [true, false] {
+            for k in parent..end {
+                let net = self.nets[k];
+                let (from, to) = (low.max(net.low), high.min(net.high));
+                let apart = if strict { to.cmple(from) } else { to.cmplt(from) };
+                if apart.any() {
+                    continue;
+                }
+                let count = (net.degrees[0] + 1) * (net.degrees[1] + 1);
+                let first = self.values.len();
+                self.values.extend_from_within(net.first..net.first + count);
+                self.cut(net.degrees, first, (net.low, net.high), (from, to));
+            }
+            if self.nets.len() > before {
+                return;
+            }
+        }
+    }
+
+    /// The functions and the weight at native `uv`, by the nets from number `first` on; times a common factor.
+    fn at(&self, first: usize, uv: DVec2) -> V {
+        let has = |net: &&Net| uv.cmpge(net.low).all() && uv.cmple(net.high).all();
+        let off = |net: &Net| uv.clamp(net.low, net.high).distance_squared(uv);
+        let nearest = || self.nets[first..].iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        let net = self.nets[first..].iter().find(has).or_else(nearest).copied();
+        let net = net.unwrap_or(Net { degrees: [0, 0], first: 0, low: uv, high: uv });
+        let [m, n] = net.degrees;
+        let size = net.high - net.low;
+        let of = |axis: usize| {
+            let x = if size[axis] > 0.0 { (uv[axis] - net.low[axis]) / size[axis] } else { 0.0 };
+            x.clamp(0.0, 1.0)
+        };
+        let values = &self.values[net.first..net.first + (m + 1) * (n + 1)];
+        if m.max(n) < 8 {
+            sum::<V, 8>([m, n], values, of(0), of(1))
+        } else {
+            sum::<V, MAX_COUNT>([m, n], values, of(0), of(1))
+        }
+    }
+
+    /// Takes the nets from number `count` on out again.
+    fn drop_to(&mut self, count: usize) {
+        if let Some(net) = self.nets.get(count) {
+            self.values.truncate(net.first);
+        }
+        self.nets.truncate(count);
+    }
+
+    /// Least and largest weight over the nets from number `first` on.
+    fn weights(&self, first: usize) -> (f64, f64) {
+        let start = self.nets.get(first).map_or(self.values.len(), |net| net.first);
+        let all = self.values[start..].iter().map(|v| v.weight());
+        all.fold((f64::INFINITY, 0.0), |(a, b), w| (w.min(a), w.max(b)))
     }
 }
 
-/// Control points of the part `from..to` of a curve whose points stand `stride` apart.
-fn cut(points: &mut [DVec4], start: usize, stride: usize, count: usize, (from, to): (f64, f64)) {
+/// Coefficients of the part `from..to` of a curve whose coefficients stand `stride` apart.
+fn cut<V: Height>(values: &mut [V], start: usize, stride: usize, count: usize, (from, to): (f64, f64)) {
     let at = |i: usize| start + i * stride;
     if to < 1.0 {
         for r in 1..count {
             for i in (r..count).rev() {
-                points[at(i)] = points[at(i - 1)].lerp(points[at(i)], to);
+                values[at(i)] = values[at(i - 1)] * (1.0 - to) + values[at(i)] * to;
             }
         }
     }
@@ -62,52 +163,75 @@ fn cut(points: &mut [DVec4], start: usize, stride: usize, count: usize, (from, t
         let t = from / to;
         for r in 1..count {
             for i in 0..count - r {
-                points[at(i)] = points[at(i)].lerp(points[at(i + 1)], t);
+                values[at(i)] = values[at(i)] * (1.0 - t) + values[at(i + 1)] * t;
             }
         }
     }
+}
+
+/// The value at (u, v), 0 to 1, of a net.
+fn sum<V: Height, const N: usize>([m, n]: [usize; 2], values: &[V], u: f64, v: f64) -> V {
+    let (mut bu, mut bv) = ([0.0; N], [0.0; N]);
+    bernstein::values(m, u, &mut bu);
+    bernstein::values(n, v, &mut bv);
+    let row = |values: &[V]| {
+        let mut sum = values[0] * bv[0];
+        for (value, b) in values[1..].iter().zip(&bv[1..]) {
+            sum = sum + *value * *b;
+        }
+        sum
+    };
+    let mut rows = values.chunks(n + 1);
+    let mut total = rows.next().map_or(values[0], &row) * bu[0];
+    for (values, b) in rows.zip(&bu[1..]) {
+        total = total + row(values) * *b;
+    }
+    total
 }
 
 /// Ranges of the second derivatives of a scalar over a box, native parameters: uu, uv, vv.
 struct Curvature {
     low: DVec3,
     high: DVec3,
-    /// Largest value of a control point over its weight.
+    /// Largest value of a coefficient over its weight.
     hull: f64,
 }
 
 impl Curvature {
-    /// Of `functional` applied to homogeneous points.
-    fn new(nets: &[Net], functional: DVec4) -> Self {
+    /// Of the height number `which` over the nets from number `first` on.
+    fn new<V: Height>(all: &Nets<V>, first: usize, which: usize) -> Self {
         let mut result = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, hull: 0.0 };
-        let mut values = Vec::new();
-        for net in nets {
+        for net in &all.nets[first..] {
             let [m, n] = net.degrees;
-            values.clear();
-            values.extend(net.points.iter().map(|h| functional.dot(*h)));
-            let at = |i: usize, j: usize| values[i * (n + 1) + j];
-            for (value, h) in values.iter().zip(&net.points) {
-                result.hull = result.hull.max(value.abs() / h.w);
+            let values = &all.values[net.first..net.first + (m + 1) * (n + 1)];
+            let at = |i: usize, j: usize| values[i * (n + 1) + j].heights().as_ref()[which];
+            for value in values {
+                result.hull = result.hull.max(value.heights().as_ref()[which].abs() / value.weight());
             }
             let (mf, nf) = (m as f64, n as f64);
-            let unit = net.size * net.size;
+            let size = net.high - net.low;
+            let unit = size * size;
             let mut ranges = [(f64::INFINITY, f64::NEG_INFINITY); 3];
-            let mut note = |k: usize, x: f64| ranges[k] = (ranges[k].0.min(x), ranges[k].1.max(x));
-            for i in 0..=m {
+            let mut note = |k: usize, x: f64| ranges[k] = (x.min(ranges[k].0), x.max(ranges[k].1));
+            for i in 0..(m + 1).saturating_sub(2) {
                 for j in 0..=n {
-                    if i + 2 <= m {
-                        note(0, at(i + 2, j) - 2.0 * at(i + 1, j) + at(i, j));
-                    }
-                    if i < m && j < n {
-                        note(1, at(i + 1, j + 1) - at(i + 1, j) - at(i, j + 1) + at(i, j));
-                    }
-                    if j + 2 <= n {
-                        note(2, at(i, j + 2) - 2.0 * at(i, j + 1) + at(i, j));
-                    }
+                    note(0, at(i + 2, j) - 2.0 * at(i + 1, j) + at(i, j));
                 }
             }
+            for i in 0..m {
+                for j in 0..n {
+                    note(1, at(i + 1, j + 1) - at(i + 1, j) - at(i, j + 1) + at(i, j));
+                }
+            }
+            for i in 0..=m {
+                for j in 0..(n + 1).saturating_sub(2) {
+                    note(2, at(i, j + 2) - 2.0 * at(i, j + 1) + at(i, j));
+                }
+            }
+            // Across a box of no width nothing is gone along.
+            let per = |count: f64, area: f64| if area > 0.0 { count / area } else { 0.0 };
             let factor =
-                [mf * (mf - 1.0) / unit.x, mf * nf / (net.size.x * net.size.y), nf * (nf - 1.0) / unit.y];
+                [per(mf * (mf - 1.0), unit.x), per(mf * nf, size.x * size.y), per(nf * (nf - 1.0), unit.y)];
             for k in 0..3 {
                 // Of a degree too low to have this derivative: none.
                 let (low, high) = if ranges[k].0 <= ranges[k].1 { ranges[k] } else { (0.0, 0.0) };
@@ -172,31 +296,41 @@ impl<'a> Flatness<'a> {
     /// Bound of the distance of the surface over a triangle of native `uv` from a plane that its corners lie in. Stops as
     /// soon as it is known to be above `limit`, or when halving further would cost more than it is worth.
     pub fn triangle(&self, uv: [DVec2; 3], plane: Supporting, limit: f64) -> f64 {
-        self.part(uv, [0.0; 3], plane, limit, DEPTH)
+        let (low, high) = self.boxed(&uv);
+        let foot = plane.0 - self.origin;
+        let height = |p: DVec3, w: f64| DVec2::new(plane.1.dot(p - foot) * w, w);
+        let mut nets = self.nets(low, high, height);
+        self.part(uv, [0.0; 3], limit, DEPTH, &mut nets, 0)
     }
 
-    fn part(&self, uv: [DVec2; 3], heights: [f64; 3], plane: Supporting, limit: f64, depth: u32) -> f64 {
+    /// The bound for a part of the triangle whose nets stand from number `first` on in `nets`; `heights` of its corners are
+    /// those of the numerator.
+    fn part(
+        &self,
+        uv: [DVec2; 3],
+        heights: [f64; 3],
+        limit: f64,
+        depth: u32,
+        nets: &mut Nets<DVec2>,
+        first: usize,
+    ) -> f64 {
         let (low, high) = self.boxed(&uv);
-        let nets = self.nets(low, high);
-        let functional = plane.1.extend(-plane.1.dot(plane.0 - self.origin));
-        let curvature = Curvature::new(&nets, functional);
+        let curvature = Curvature::new(nets, first, 0);
         let bent = [0, 1, 2].map(|k| curvature.along(uv[(k + 1) % 3] - uv[k]));
-        let up = largest(bent.map(|x| x.max(0.0)));
-        let down = largest(bent.map(|x| (-x).max(0.0)));
-        let weights = weights(&nets);
-        let corners = heights.iter().fold(0.0f64, |m, h| m.max(h.abs())) * weights.1;
+        let weights = nets.weights(first);
         let (kink, feedback) = self.kinks(low, high);
-        let over = corners + 0.5 * up.max(down) + curvature.slack(high - low) + kink * weights.0;
+        let over = highest(heights, bent) + curvature.slack(high - low) + kink * weights.0;
         let bound = finish(over / weights.0, feedback / weights.0).min(curvature.hull);
         if bound <= limit || depth == 0 || bound.is_nan() {
             return bound;
         }
         let middles = [0, 1, 2].map(|k| 0.5 * (uv[k] + uv[(k + 1) % 3]));
-        let off = middles.map(|m| (self.ground.point(m) - plane.0).dot(plane.1));
-        let most = off.iter().fold(0.0f64, |m, h| m.max(h.abs()));
+        let at = middles.map(|m| nets.at(first, m));
+        let most = at.iter().fold(0.0f64, |m, h| m.max((h.x / h.y).abs()));
         if !(most <= limit) {
             return most.min(bound);
         }
+        let off = at.map(|h| h.x);
         let parts = [
             ([uv[0], middles[0], middles[2]], [heights[0], off[0], off[2]]),
             ([middles[0], uv[1], middles[1]], [off[0], heights[1], off[1]]),
@@ -204,8 +338,12 @@ impl<'a> Flatness<'a> {
             ([middles[0], middles[1], middles[2]], off),
         ];
         let mut worst = 0.0f64;
+        let end = nets.nets.len();
         for (uv, heights) in parts {
-            worst = worst.max(self.part(uv, heights, plane, limit, depth - 1));
+            let (low, high) = self.boxed(&uv);
+            nets.narrow((first, end), low, high);
+            worst = worst.max(self.part(uv, heights, limit, depth - 1, nets, end));
+            nets.drop_to(end);
             if !(worst <= limit) {
                 break;
             }
@@ -221,43 +359,56 @@ impl<'a> Flatness<'a> {
             // A chord of no length: as far as the curve goes.
             return self.ground.point(0.5 * (uv[0] + uv[1])).distance(p[0]);
         };
-        self.piece(uv, [0.0; 2], p[0], [x, along.cross(x)], limit, CHORD_DEPTH)
+        let frame = [x, along.cross(x)];
+        let foot = p[0] - self.origin;
+        let height = |q: DVec3, w: f64| DVec3::new(frame[0].dot(q - foot) * w, frame[1].dot(q - foot) * w, w);
+        let (low, high) = self.boxed(&uv);
+        let mut nets = self.nets(low, high, height);
+        self.piece(uv, [DVec3::ZERO; 2], limit, CHORD_DEPTH, &mut nets, 0)
     }
 
+    /// The same for a part of it; `heights` of its ends are those of the numerator.
     fn piece(
         &self,
         uv: [DVec2; 2],
-        offsets: [f64; 2],
-        from: DVec3,
-        frame: [DVec3; 2],
+        heights: [DVec3; 2],
         limit: f64,
         depth: u32,
+        nets: &mut Nets<DVec3>,
+        first: usize,
     ) -> f64 {
         let (low, high) = self.boxed(&uv);
-        let nets = self.nets(low, high);
-        let weights = weights(&nets);
-        let [x, y] = frame.map(|axis| {
-            let found = Curvature::new(&nets, axis.extend(-axis.dot(from - self.origin)));
-            (found.along(uv[1] - uv[0]).abs() / 8.0 + found.slack(high - low), found.hull)
+        let weights = nets.weights(first);
+        let [x, y] = [0, 1].map(|which| {
+            let found = Curvature::new(nets, first, which);
+            let own = heights.map(|h| h[which]);
+            let bow = highest_between(own[0], own[1], found.along(uv[1] - uv[0]));
+            (own[0].abs().max(own[1].abs()).max(bow.abs()) + found.slack(high - low), found.hull)
         });
         let (kink, feedback) = self.kinks(low, high);
-        let corners = offsets[0].max(offsets[1]) * weights.1;
-        let over = corners + x.0.hypot(y.0) + kink * weights.0;
+        let over = x.0.hypot(y.0) + kink * weights.0;
         let bound = finish(over / weights.0, feedback / weights.0).min(x.1.hypot(y.1));
         if bound <= limit || depth == 0 || bound.is_nan() {
             return bound;
         }
         let middle = 0.5 * (uv[0] + uv[1]);
-        let d = self.ground.point(middle) - from;
-        let off = d.dot(frame[0]).hypot(d.dot(frame[1]));
+        let at = nets.at(first, middle);
+        let off = (at.x / at.z).hypot(at.y / at.z);
         if !(off <= limit) {
             return off.min(bound);
         }
-        let left = self.piece([uv[0], middle], [offsets[0], off], from, frame, limit, depth - 1);
-        if !(left <= limit) {
-            return left;
+        let end = nets.nets.len();
+        let mut worst = 0.0f64;
+        for (uv, heights) in [([uv[0], middle], [heights[0], at]), ([middle, uv[1]], [at, heights[1]])] {
+            let (low, high) = self.boxed(&uv);
+            nets.narrow((first, end), low, high);
+            worst = worst.max(self.piece(uv, heights, limit, depth - 1, nets, end));
+            nets.drop_to(end);
+            if !(worst <= limit) {
+                return worst;
+            }
         }
-        left.max(self.piece([middle, uv[1]], [off, offsets[1]], from, frame, limit, depth - 1)).min(bound)
+        worst.min(bound)
     }
 
     fn boxed(&self, uv: &[DVec2]) -> (DVec2, DVec2) {
@@ -267,8 +418,8 @@ impl<'a> Flatness<'a> {
         (low.clamp(self.domain.0, self.domain.1), high.clamp(self.domain.0, self.domain.1))
     }
 
-    /// The parts of patches over a box.
-    fn nets(&self, low: DVec2, high: DVec2) -> Vec<Net> {
+    /// The parts of patches over a box, by what `height` makes of control points about the origin and weights.
+    fn nets<V: Height>(&self, low: DVec2, high: DVec2, height: impl Fn(DVec3, f64) -> V) -> Nets<V> {
         let range = |lines: &[f64], from: f64, to: f64| {
             let cells = lines.len().saturating_sub(1);
             let first = lines.partition_point(|x| *x <= from).saturating_sub(1).min(cells.saturating_sub(1));
@@ -276,13 +427,16 @@ impl<'a> Flatness<'a> {
             first..end
         };
         let (us, vs) = (self.sheet.u_lines(), self.sheet.v_lines());
-        let mut nets = Vec::with_capacity(1);
+        let mut nets = Nets { nets: Vec::with_capacity(8), values: Vec::with_capacity(96) };
         for i in range(us, low.x, high.x) {
             for j in range(vs, low.y, high.y) {
                 let Some(patch) = self.sheet.cell(i, j) else { continue };
                 let from = low.max(DVec2::new(us[i], vs[j]));
                 let to = high.min(DVec2::new(us[i + 1], vs[j + 1])).max(from);
-                nets.push(Net::new(patch, self.origin, from, to));
+                let first = nets.values.len();
+                let all = patch.points.iter().zip(&patch.weights);
+                nets.values.extend(all.map(|(p, w)| height(*p - self.origin, *w)));
+                nets.cut([patch.degree_u, patch.degree_v], first, (patch.uv_min, patch.uv_max), (from, to));
             }
         }
         nets
@@ -336,24 +490,34 @@ impl<'a> Flatness<'a> {
     }
 }
 
-/// Least and largest weight over some parts.
-fn weights(nets: &[Net]) -> (f64, f64) {
-    let all = nets.iter().map(Net::weights);
-    all.fold((f64::INFINITY, 0.0), |(a, b), (low, high)| (a.min(low), b.max(high)))
-}
-
 /// The distance that follows from a bound of which `feedback` times the distance itself is a part.
 fn finish(error: f64, feedback: f64) -> f64 {
     if feedback < 1.0 { error / (1.0 - feedback) } else { f64::INFINITY }
 }
 
-/// The largest `sum_(i<j) l_i l_j a_ij` over barycentric coordinates: the squared radius of the smallest circle around a
-/// triangle whose squared sides are `a`.
-fn largest(a: [f64; 3]) -> f64 {
-    let sum = a[0] + a[1] + a[2];
-    let most = a[0].max(a[1]).max(a[2]);
-    let area = 2.0 * (a[0] * a[1] + a[1] * a[2] + a[2] * a[0]) - (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-    if most >= sum - most || area <= 0.0 { 0.25 * most } else { a[0] * a[1] * a[2] / area }
+/// The extreme of a quadratic between two places where it is `a` and `b`, whose second derivative along the way is `bent`; 0
+/// where the ends are its extremes.
+fn highest_between(a: f64, b: f64, bent: f64) -> f64 {
+    let t = 0.5 - (b - a) / bent;
+    if t > 0.0 && t < 1.0 { a + (b - a) * t - 0.5 * t * (1.0 - t) * bent } else { 0.0 }
+}
+
+/// The largest absolute value of a quadratic over a triangle with the values `h` at its corners and the second derivatives
+/// `bent` along its edges (from corner k to the next).
+fn highest(h: [f64; 3], bent: [f64; 3]) -> f64 {
+    let mut most = h.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    for k in 0..3 {
+        most = most.max(highest_between(h[k], h[(k + 1) % 3], bent[k]).abs());
+    }
+    // Inside: where the gradient in the coordinates of corners 1 and 2 is nothing.
+    let (ss, tt, st) = (bent[0], bent[2], 0.5 * (bent[0] + bent[2] - bent[1]));
+    let (gs, gt) = (h[1] - h[0] - 0.5 * ss, h[2] - h[0] - 0.5 * tt);
+    let det = ss * tt - st * st;
+    let (s, t) = ((st * gt - tt * gs) / det, (st * gs - ss * gt) / det);
+    if s > 0.0 && t > 0.0 && s + t < 1.0 {
+        most = most.max((h[0] + 0.5 * (gs * s + gt * t)).abs());
+    }
+    most
 }
 
 /// The lines between patches across which the surface or its weight is not smooth.
@@ -408,4 +572,31 @@ fn crease(axis: usize, a: &BezierPatch, b: &BezierPatch) -> Option<Crease> {
     }
     let (from, to) = (a.uv_min.y, a.uv_max.y);
     (jump > 0.0 || weight_jump > 0.0).then_some(Crease { axis, at: a.uv_max.x, from, to, jump, weight_jump })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_highest_point_of_a_quadratic_is_found_inside_and_on_edges() {
+        for seed in 0..2000u32 {
+            let number = |k: u32| {
+                let x = (seed * 31 + k).wrapping_mul(2_654_435_761);
+                f64::from((x ^ (x >> 15)).wrapping_mul(2_246_822_519)) / f64::from(u32::MAX) - 0.5
+            };
+            let (h, bent) = ([0, 1, 2].map(number), [3, 4, 5].map(|k| 6.0 * number(k)));
+            let found = highest(h, bent);
+            let mut sampled = 0.0f64;
+            for i in 0..=60 {
+                for j in 0..=60 - i {
+                    let l = [60 - i - j, i, j].map(|x| f64::from(x) / 60.0);
+                    let line = h[0] * l[0] + h[1] * l[1] + h[2] * l[2];
+                    let bow = bent[0] * l[0] * l[1] + bent[1] * l[1] * l[2] + bent[2] * l[2] * l[0];
+                    sampled = sampled.max((line - 0.5 * bow).abs());
+                }
+            }
+            assert!(found >= sampled - 1e-12 && found <= sampled + 2e-3, "{found} {sampled}");
+        }
+    }
 }

@@ -75,6 +75,9 @@ pub fn lifted_degree(curve: &BezierCurve2, patch: &BezierPatch) -> usize {
 /// The image of `curve`, given in the patch's own parameters (0 to 1), in model space. The degree must not exceed
 /// [`HIGHEST_DEGREE`].
 pub fn lift(curve: &BezierCurve2, patch: &BezierPatch) -> BezierCurve3 {
+    if let Some(lifted) = on_parallelogram(curve, patch).or_else(|| iso_line(curve, patch)) {
+        return lifted;
+    }
     let scale = binomial_row(curve.degree());
     let (us, vs): (Vec<f64>, Vec<f64>) = curve.points.iter().map(|p| (p.x, p.y)).unzip();
     let bu = along(patch.degree_u, &us, &curve.weights, scale);
@@ -103,6 +106,56 @@ pub fn lift(curve: &BezierCurve2, patch: &BezierPatch) -> BezierCurve3 {
         .map(|(h, s)| (origin + h.truncate() / h.w, if polynomial { 1.0 } else { h.w / s }))
         .unzip();
     reduced(BezierCurve3 { points, weights })
+}
+
+/// The image on a patch that is a parallelogram, run through evenly: an affine map keeps degree and weights.
+fn on_parallelogram(curve: &BezierCurve2, patch: &BezierPatch) -> Option<BezierCurve3> {
+    if patch.degree_u != 1 || patch.degree_v != 1 || patch.is_rational() {
+        return None;
+    }
+    let [a, b, c, d] = [0, 1, 2, 3].map(|k| patch.points[k]);
+    let (along_v, along_u) = (b - a, c - a);
+    let twist = (d - c - along_v).length();
+    let size = along_u.length().max(along_v.length());
+    (twist <= LOSSLESS * size).then(|| curve.map_points(|p| a + along_u * p.x + along_v * p.y))
+}
+
+/// The image of a line along which one parameter stays the same, run through evenly: part of a row of the patch.
+fn iso_line(curve: &BezierCurve2, patch: &BezierPatch) -> Option<BezierCurve3> {
+    if curve.degree() != 1 || curve.is_rational() {
+        return None;
+    }
+    let (start, end) = (curve.points[0], curve.points[1]);
+    let axis = if start.x == end.x { 0 } else { 1 };
+    if start[axis] != end[axis] {
+        return None;
+    }
+    let (m, n) = (patch.degree_u, patch.degree_v);
+    let degree = [m, n][axis];
+    let mut basis = [0.0; MAX_COUNT];
+    bernstein::values(degree, start[axis], &mut basis);
+    let origin = patch.points[0];
+    let row = |k: usize| {
+        let mut sum = DVec4::ZERO;
+        for (i, b) in basis[..=degree].iter().enumerate() {
+            let at = if axis == 0 { i * (n + 1) + k } else { k * (n + 1) + i };
+            sum += ((patch.points[at] - origin) * patch.weights[at]).extend(patch.weights[at]) * *b;
+        }
+        sum
+    };
+    let rational = patch.is_rational();
+    let (points, weights) = (0..=[n, m][axis])
+        .map(row)
+        .map(|h| (origin + h.truncate() / h.w, if rational { h.w } else { 1.0 }))
+        .unzip();
+    let whole = BezierCurve3 { points, weights };
+    let (from, to) = (start[1 - axis], end[1 - axis]);
+    Some(reduced(match (from, to) {
+        (0.0, 1.0) => whole,
+        (1.0, 0.0) => whole.reversed(),
+        _ if from < to => whole.restrict(from, to),
+        _ => whole.restrict(to, from).reversed(),
+    }))
 }
 
 /// Parts of this size of a curve's control polygon count as nothing when its degree is reduced.
@@ -204,6 +257,39 @@ mod tests {
         let lifted = lift(&line, &patch(true));
         assert_eq!(lifted.degree(), 3);
         assert_eq!(lifted_degree(&line, &patch(true)), 3);
+    }
+
+    #[test]
+    fn lines_of_constant_parameter_and_planes_need_no_products() {
+        let at = |from: (f64, f64), to: (f64, f64)| {
+            BezierCurve2::polynomial(vec![DVec2::new(from.0, from.1), DVec2::new(to.0, to.1)])
+        };
+        let lines = [
+            at((0.0, 0.3), (1.0, 0.3)),
+            at((0.9, 0.0), (0.2, 0.0)),
+            at((0.4, 1.0), (0.4, 0.0)),
+            at((1.0, 0.2), (1.0, 0.7)),
+        ];
+        let mut plane = patch(false);
+        (plane.degree_u, plane.degree_v) = (1, 1);
+        let corners = [(0.0, 0.0), (1.0, 3.0), (2.0, 0.5), (3.0, 3.5)];
+        plane.points = corners.iter().map(|c| DVec3::new(c.0, c.1, 1.0)).collect();
+        plane.weights = vec![1.0; 4];
+        let arc = BezierCurve2 {
+            points: vec![DVec2::new(0.1, 0.2), DVec2::new(0.9, 0.1), DVec2::new(0.4, 0.8)],
+            weights: vec![1.0, 0.4, 2.0],
+        };
+        for (patch, curves) in [(patch(true), &lines[..]), (patch(false), &lines[..]), (plane, &[arc][..])] {
+            for curve in curves {
+                let lifted = lift(curve, &patch);
+                assert!(lifted.degree() <= 3);
+                for k in 0..=20 {
+                    let t = f64::from(k) / 20.0;
+                    let uv = curve.point(t);
+                    assert!(lifted.point(t).distance(patch.point(uv.x, uv.y)) < 1e-13);
+                }
+            }
+        }
     }
 
     #[test]

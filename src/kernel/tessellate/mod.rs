@@ -1,7 +1,8 @@
 //! Triangles within an error for trimmed faces; those that the bounds do not prove are counted.
 //!
 //! Trim curves are lifted to model space ([`lift`], [`outline`]) and divided into chords ([`chords`]) independently of the
-//! surface, which is divided until it is as close to its triangles as asked ([`refine`], [`flatness`]); both meet in a
+//! surface, which gets a lattice of vertices by its curvature and is divided until it is as close to its triangles as asked
+//! ([`refine`], [`flatness`]); both meet in a
 //! constrained Delaunay triangulation in parameters ([`triangulate`]); folds are turned and superfluous vertices taken out
 //! again. Unlike in the paper no vertex is ever put on a chord
 //! where the surface's cells cross it, so that two faces that share chords share all their vertices there.
@@ -12,6 +13,7 @@
 //! Invariants: the same input gives the same mesh bit for bit; vertices of the boundary are where they were asked to be;
 //! triangles are counter-clockwise against `du x dv`.
 
+mod bends;
 pub mod bilinear;
 pub mod chords;
 pub mod coherence;
@@ -25,6 +27,7 @@ pub mod options;
 pub mod outline;
 pub mod plane;
 pub mod refine;
+mod seed;
 pub mod simplify;
 pub mod tessellator;
 pub mod triangulate;

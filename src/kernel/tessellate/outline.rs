@@ -109,7 +109,7 @@ impl Run {
         let mut best = self.point(s).distance_squared(p);
         for _ in 0..12 {
             let (piece, t) = self.at(s);
-            let (here, d) = piece.space.tangent(t);
+            let (here, d) = tangent(&piece.space, t);
             let squared = d.length_squared();
             let mut step = if squared > 0.0 { (p - here).dot(d) / squared } else { 0.0 };
             let mut moved = false;
@@ -133,14 +133,28 @@ impl Run {
         s
     }
 
-    /// The same from the best of several starts over the whole range; with the distance.
-    pub fn nearest(&self, p: DVec3) -> (f64, f64) {
-        let count = 8 * self.pieces.len();
-        let at = |k: usize| self.range() * k as f64 / count as f64;
-        let off = |k: usize| self.point(at(k)).distance_squared(p);
-        let start = (0..=count).map(|k| (off(k), k)).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0, |b| b.1);
-        let s = self.project(p, at(start), (0.0, self.range()));
-        (s, self.point(s).distance(p))
+    /// Parameter of the point nearest to `p` and its distance, where the run comes within `reach`: the best of several starts,
+    /// but for pieces whose control points keep away.
+    pub fn nearest_within(&self, p: DVec3, reach: f64) -> Option<(f64, f64)> {
+        const SAMPLES: usize = 8;
+        let mut best: Option<(f64, f64)> = None;
+        for (k, piece) in self.pieces.iter().enumerate() {
+            let (low, high) = piece.space.hull();
+            if p.clamp(low, high).distance(p) > reach {
+                continue;
+            }
+            let count = if is_even_line(&piece.space) { 1 } else { SAMPLES };
+            for i in 0..=count {
+                let s = k as f64 + i as f64 / count as f64;
+                let off = self.point(s).distance_squared(p);
+                if best.is_none_or(|b| off < b.0) {
+                    best = Some((off, s));
+                }
+            }
+        }
+        let s = self.project(p, best?.1, (0.0, self.range()));
+        let off = self.point(s).distance(p);
+        (off <= reach).then_some((s, off))
     }
 
     /// First and last point.
@@ -176,8 +190,22 @@ fn end_or<V: crate::kernel::vector::Vector>(curve: &crate::kernel::bezier::Bezie
     match t {
         0.0 => curve.start(),
         1.0 => curve.end(),
+        _ if is_even_line(curve) => curve.points[0] * (1.0 - t) + curve.points[1] * t,
         _ => curve.point(t),
     }
+}
+
+/// Point and derivative of the curve at `t`.
+fn tangent(curve: &BezierCurve3, t: f64) -> (DVec3, DVec3) {
+    if is_even_line(curve) {
+        return (end_or(curve, t), curve.points[1] - curve.points[0]);
+    }
+    curve.tangent(t)
+}
+
+/// Whether the curve is a line run through at even speed, as most of a machine part's are.
+fn is_even_line<V: crate::kernel::vector::Vector>(curve: &crate::kernel::bezier::BezierCurve<V>) -> bool {
+    curve.points.len() == 2 && curve.weights[0] == curve.weights[1]
 }
 
 impl Outline {

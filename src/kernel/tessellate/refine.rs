@@ -4,8 +4,10 @@
 //! surface, or in its middle where no edge stands out or that edge bounds the face. Chords of the boundary are never divided
 //! here, for neighbours share them: those that keep a triangle from its tolerance are handed back.
 
+use std::cell::RefCell;
 use std::cmp::Ordering;
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::{BTreeSet, BinaryHeap, HashMap};
+use std::hash::{BuildHasherDefault, Hasher};
 
 use glam::{DVec2, DVec3};
 use spade::handles::FixedVertexHandle;
@@ -15,6 +17,7 @@ use super::line_error::distance_to_segment;
 use super::options::{TessellateError, TessellationOptions};
 use super::outline::Ground;
 use super::plane::Plane;
+use super::seed::Seed;
 use super::triangulate::{Chord, Region};
 use super::untrimmed::normal;
 use crate::kernel::trim::UvRect;
@@ -46,7 +49,32 @@ pub struct Refinement<'a> {
     pub scale: DVec2,
     /// Rectangle of the face.
     pub domain: UvRect,
+    /// Points of the surface in the middles of edges, by the numbers of their ends: most edges bound two triangles.
+    pub middles: Middles,
 }
+
+/// Points by pairs of numbers.
+pub type Middles = RefCell<HashMap<u64, DVec3, BuildHasherDefault<PairHasher>>>;
+
+/// Mixes the bits of one number: pairs of vertices are even enough for no more.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PairHasher(u64);
+
+impl Hasher for PairHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|b| self.write_u64(u64::from(*b)));
+    }
+    fn write_u64(&mut self, x: u64) {
+        let mixed = (self.0 ^ x).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.0 = mixed ^ (mixed >> 32);
+    }
+}
+
+/// Triangles round a vertex that are estimated before any is proved.
+const MOST_AROUND: usize = 16;
 
 /// What came of a refinement.
 #[derive(Debug, Clone, Default)]
@@ -112,6 +140,8 @@ const AT_FAULT: f64 = 0.985;
 const NEAR: f64 = 2.0;
 /// Triangles that look away from the surface and are higher than this part of the tolerance are divided.
 const FOLDED: f64 = 0.05;
+/// Lattice vertices keep this part of their spacing from others and from chords.
+const CLEAR: f64 = 0.45;
 /// Edges shorter than this part of the face's parameters are not divided.
 const SHORTEST: f64 = 1e-7;
 
@@ -127,10 +157,29 @@ impl Refinement<'_> {
         cancelled: &dyn Fn() -> bool,
     ) -> Result<Refined, TessellateError> {
         let mut refined = Refined::default();
+        // Bounds are dear: they wait until points of the surface have nothing more to say.
+        let passes: &[bool] =
+            if self.flatness.is_some() && self.plane.is_none() { &[false, true] } else { &[true] };
+        for prove in passes {
+            (refined.error, refined.over) = (0.0, 0);
+            self.pass(region, vertices, &mut refined, *prove, cancelled)?;
+        }
+        Ok(refined)
+    }
+
+    /// Divides triangles that are over a limit, by estimates or proven errors.
+    fn pass(
+        &self,
+        region: &mut Region,
+        vertices: &mut Vertices,
+        refined: &mut Refined,
+        prove: bool,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Result<(), TessellateError> {
         let mut queue: BinaryHeap<Task> = BinaryHeap::new();
         let first: Vec<_> = region.corners().collect();
         for corners in first {
-            self.judge(region, vertices, corners, &mut queue, &mut refined);
+            self.judge(region, vertices, corners, &mut queue, refined, prove);
         }
         let mut steps = 0usize;
         while let Some(task) = queue.pop() {
@@ -158,7 +207,7 @@ impl Refinement<'_> {
             match done {
                 Some(around) => {
                     for corners in around {
-                        self.judge(region, vertices, corners, &mut queue, &mut refined);
+                        self.judge(region, vertices, corners, &mut queue, refined, prove);
                     }
                 }
                 None => refined.give_up(&task),
@@ -167,7 +216,27 @@ impl Refinement<'_> {
                 return Err(TessellateError::TooManyTriangles { limit: self.options.triangle_limit });
             }
         }
-        Ok(refined)
+        Ok(())
+    }
+
+    /// Puts lattice vertices inside, those that keep their distance from vertices and chords.
+    pub(super) fn sow(&self, region: &mut Region, vertices: &mut Vertices, seeds: &[Seed]) {
+        let Some(mut hint) = region.corners().next().map(|c| c[0]) else { return };
+        for seed in seeds {
+            let clear = 1.0 / (seed.spacing * CLEAR);
+            let Some(corners) = region.around(seed.uv * self.scale, hint) else { continue };
+            hint = corners[0];
+            let Some(bounds) = region.standing(corners) else { continue };
+            let at = corners.map(|c| (vertices.uvs[region.number(c) as usize] - seed.uv) * clear);
+            let near = (0..3).any(|k| {
+                let (a, b) = (at[k], at[(k + 1) % 3]);
+                let along = (b - a) * (-a.dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+                a.length_squared() < 1.0 || bounds[k] && (a + along).length_squared() < 1.0
+            });
+            if !near && let Some(around) = self.put(region, vertices, seed.uv, hint) {
+                hint = around.first().map_or(hint, |t| t[0]);
+            }
+        }
     }
 
     /// The boundary chord of a triangle that a new vertex would lie so near to, for how much it bends, that the
@@ -212,7 +281,10 @@ impl Refinement<'_> {
         vertices.uvs.push(uv);
         vertices.on_surface.push(p);
         vertices.positions.push(p);
-        vertices.normals.push(normal(self.ground, uv, &self.domain, 1e-6 * self.domain.size()));
+        vertices.normals.push(match self.plane {
+            Some(plane) => plane.normal(),
+            None => normal(self.ground, uv, &self.domain, 1e-6 * self.domain.size()),
+        });
     }
 
     /// Measures a triangle; queues it when it is over a limit.
@@ -223,15 +295,13 @@ impl Refinement<'_> {
         corners: [FixedVertexHandle; 3],
         queue: &mut BinaryHeap<Task>,
         refined: &mut Refined,
+        prove: bool,
     ) {
         let numbers = corners.map(|c| region.number(c));
         let uv = numbers.map(|n| vertices.uvs[n as usize]);
-        let p = numbers.map(|n| vertices.on_surface[n as usize]);
-        let gap = numbers.map(|n| p_gap(vertices, n)).into_iter().fold(0.0, f64::max);
-        let tolerance = self.options.tolerance;
-        let allowed = (tolerance - gap).max(0.5 * tolerance);
+        let (gap, allowed) = (gap(vertices, &numbers), self.allowed(vertices, &numbers));
         let normals = numbers.map(|n| vertices.normals[n as usize]);
-        let Found { error, shares, crease } = self.error(uv, p, normals, allowed);
+        let Found { error, shares, crease } = self.error(vertices, numbers, allowed, prove);
         let mut excess = error / allowed;
         let Some(bounds) = region.standing(corners) else { return };
         let mut divide = self.weakest(&bounds, shares, allowed, (vertices, &numbers), refined, excess > 1.0);
@@ -326,36 +396,84 @@ impl Refinement<'_> {
         }
     }
 
-    /// Whether a triangle keeps the tolerance.
-    pub fn holds(&self, vertices: &Vertices, triangle: [u32; 3]) -> bool {
-        let of = |all: &[DVec3]| triangle.map(|n| all[n as usize]);
-        let uv = triangle.map(|n| vertices.uvs[n as usize]);
-        let gap = triangle.map(|n| p_gap(vertices, n)).into_iter().fold(0.0, f64::max);
-        let allowed = (self.options.tolerance - gap).max(0.5 * self.options.tolerance);
-        let (p, normals) = (of(&vertices.on_surface), of(&vertices.normals));
-        let at = of(&vertices.positions);
-        let sides = [0, 1, 2].map(|k| (k, (k + 1) % 3));
+    /// Whether all of some triangles keep the tolerance and the other limits. What is cheap to know comes first.
+    pub fn hold(&self, vertices: &Vertices, triangles: impl Iterator<Item = [u32; 3]> + Clone) -> bool {
         let longest = self.options.max_edge.unwrap_or(f64::INFINITY);
         let widest = self.options.max_angle.unwrap_or(f64::INFINITY);
-        sides.iter().all(|(a, b)| at[*a].distance(at[*b]) <= longest)
-            && sides
-                .iter()
-                .all(|(a, b)| widest.is_infinite() || normals[*a].angle_between(normals[*b]) <= widest)
-            && self.error(uv, p, normals, allowed).error <= allowed
+        let limits = longest.is_finite() || widest.is_finite();
+        let within = |t: [u32; 3]| {
+            [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])].iter().all(|(a, b)| {
+                let (a, b) = (*a as usize, *b as usize);
+                vertices.positions[a].distance(vertices.positions[b]) <= longest
+                    && vertices.normals[a].angle_between(vertices.normals[b]) <= widest
+            })
+        };
+        if limits && !triangles.clone().all(within) {
+            return false;
+        }
+        let mut estimates = [Estimate::default(); MOST_AROUND];
+        let mut count = 0;
+        for (estimate, t) in estimates.iter_mut().zip(triangles.clone()) {
+            let allowed = self.allowed(vertices, &t);
+            *estimate = self.estimate(vertices, t, allowed);
+            if !(estimate.error <= allowed) {
+                return false;
+            }
+            count += 1;
+        }
+        triangles.enumerate().all(|(k, t)| {
+            let allowed = self.allowed(vertices, &t);
+            let estimate = if k < count { estimates[k] } else { self.estimate(vertices, t, allowed) };
+            self.proven(vertices, t, &estimate, allowed).error <= allowed
+        })
     }
 
-    /// Error of a triangle whose corners lie at `p` on the surface.
-    ///
-    /// What counts is the distance from the triangle's plane. Where the image of an edge leaves the triangle sideways its
-    /// neighbour lies under it, in a plane turned by about the turn of the normal within the triangle.
-    fn error(&self, uv: [DVec2; 3], p: [DVec3; 3], normals: [DVec3; 3], allowed: f64) -> Found {
+    /// What gaps at the corners of a triangle leave of the tolerance.
+    fn allowed(&self, vertices: &Vertices, numbers: &[u32; 3]) -> f64 {
+        let tolerance = self.options.tolerance;
+        (tolerance - gap(vertices, numbers)).max(0.5 * tolerance)
+    }
+
+    /// Whether a triangle could keep the tolerance with the surface's point `p` over it, as far as its plane goes.
+    pub fn reaches(&self, vertices: &Vertices, triangle: &[u32; 3], p: DVec3) -> bool {
+        let [a, b, c] = triangle.map(|n| vertices.on_surface[n as usize]);
+        let normal = (b - a).cross(c - a);
+        (p - a).dot(normal).abs() <= self.allowed(vertices, triangle) * normal.length()
+    }
+
+    /// The surface's point in the middle of an edge.
+    fn middle(&self, vertices: &Vertices, a: u32, b: u32) -> DVec3 {
+        let key = u64::from(a.min(b)) << 32 | u64::from(a.max(b));
+        *self
+            .middles
+            .borrow_mut()
+            .entry(key)
+            .or_insert_with(|| self.ground.point(0.5 * (vertices.uvs[a as usize] + vertices.uvs[b as usize])))
+    }
+
+    /// Error of a triangle: what points of the surface say, and where that does not decide the bound.
+    fn error(&self, vertices: &Vertices, triangle: [u32; 3], allowed: f64, prove: bool) -> Found {
         if self.plane.is_some() {
             return Found::default();
         }
+        let estimate = self.estimate(vertices, triangle, allowed);
+        if !prove && estimate.error <= allowed {
+            return Found { error: estimate.error, shares: estimate.shares, crease: None };
+        }
+        self.proven(vertices, triangle, &estimate, allowed)
+    }
+
+    /// Error of a triangle at the middles of its edges and in its own.
+    ///
+    /// What counts is the distance from the triangle's plane. Where the image of an edge leaves the triangle sideways its
+    /// neighbour lies under it, in a plane turned by about the turn of the normal within the triangle.
+    fn estimate(&self, vertices: &Vertices, triangle: [u32; 3], allowed: f64) -> Estimate {
+        let p = triangle.map(|n| vertices.on_surface[n as usize]);
+        let normals = triangle.map(|n| vertices.normals[n as usize]);
         let edges = [0, 1, 2].map(|k| p[(k + 1) % 3] - p[k]);
         let cross = edges[0].cross(-edges[2]);
         let longest = edges.iter().map(|e| e.length_squared()).fold(0.0, f64::max);
-        let solid = cross.length() > 1e-9 * longest;
+        let solid = cross.length_squared() > 1e-18 * longest * longest;
         let normal = if solid {
             cross.normalize_or_zero()
         } else {
@@ -367,33 +485,64 @@ impl Refinement<'_> {
         let mut sideways = 0.0f64;
         let mut asides = [0.0; 3];
         let shares = [0, 1, 2].map(|k| {
-            let to = (k + 1) % 3;
-            let d = self.ground.point(0.5 * (uv[k] + uv[to])) - p[k];
+            let d = self.middle(vertices, triangle[k], triangle[(k + 1) % 3]) - p[k];
             let up = d.dot(normal).abs();
             if solid {
                 let out = edges[k].cross(normal).normalize_or_zero();
                 let aside = d.dot(out).abs();
                 asides[k] = aside;
-                sideways = sideways.max((2.0 * aside * turn).min(up.hypot(aside) - up));
+                sideways = sideways.max((2.0 * aside * turn).min((up * up + aside * aside).sqrt() - up));
             }
             up
         });
+        let uv = triangle.map(|n| vertices.uvs[n as usize]);
         let middle = (self.ground.point((uv[0] + uv[1] + uv[2]) / 3.0) - p[0]).dot(normal).abs();
-        let estimate = shares.into_iter().fold(middle, f64::max) + sideways;
+        let error = shares.into_iter().fold(middle, f64::max) + sideways;
         let away = normal.dot(normals[0] + normals[1] + normals[2]) < 0.0;
         if solid && away && cross.length() > FOLDED * allowed * longest.sqrt() {
             // Folded over: the surface runs unevenly over its parameters here.
-            return Found { error: estimate.max(2.0 * allowed), shares: asides, crease: None };
+            return Estimate {
+                error: error.max(2.0 * allowed),
+                shares: asides,
+                folded: true,
+                ..Estimate::default()
+            };
         }
-        let Some(flatness) = self.flatness else { return Found { error: estimate, shares, crease: None } };
-        let crease = if estimate > 0.25 * allowed { flatness.crossed(&uv, 0.25 * allowed) } else { None };
-        // Beside a triangle smaller than the tolerance nothing is far.
-        if !(estimate <= allowed) || longest.sqrt() < 0.1 * allowed {
-            return Found { error: estimate, shares, crease };
-        }
-        let proven = flatness.triangle(uv, (p[0], normal), allowed - sideways) + sideways;
-        Found { error: proven.max(estimate), shares, crease }
+        Estimate { error, shares, sideways, normal, longest: longest.sqrt(), folded: false }
     }
+
+    /// What bounds say of a triangle that is `estimate`d to be within the tolerance.
+    fn proven(&self, vertices: &Vertices, triangle: [u32; 3], estimate: &Estimate, allowed: f64) -> Found {
+        let Estimate { error, shares, sideways, normal, longest, folded } = *estimate;
+        let Some(flatness) = self.flatness.filter(|_| !folded) else {
+            return Found { error, shares, crease: None };
+        };
+        let uv = triangle.map(|n| vertices.uvs[n as usize]);
+        let crease = if error > 0.25 * allowed { flatness.crossed(&uv, 0.25 * allowed) } else { None };
+        // Beside a triangle smaller than the tolerance nothing is far.
+        if !(error <= allowed) || longest < 0.1 * allowed {
+            return Found { error, shares, crease };
+        }
+        let start = vertices.on_surface[triangle[0] as usize];
+        let proven = flatness.triangle(uv, (start, normal), allowed - sideways) + sideways;
+        Found { error: proven.max(error), shares, crease }
+    }
+}
+
+/// What points of the surface say of a triangle.
+#[derive(Debug, Clone, Copy, Default)]
+struct Estimate {
+    /// Distance from the surface.
+    error: f64,
+    /// How far the surface is from it at the middles of its edges.
+    shares: [f64; 3],
+    /// What is added for neighbours that lie under the images of its edges.
+    sideways: f64,
+    normal: DVec3,
+    /// Its longest edge.
+    longest: f64,
+    /// Whether it looks away from the surface.
+    folded: bool,
 }
 
 /// What is known of a triangle.
@@ -405,6 +554,11 @@ struct Found {
     shares: [f64; 3],
     /// The edge, and where on it (0 to 1), that crosses a crease which matters.
     crease: Option<(usize, f64)>,
+}
+
+/// The largest gap at the corners of a triangle.
+fn gap(vertices: &Vertices, triangle: &[u32; 3]) -> f64 {
+    triangle.iter().map(|n| p_gap(vertices, *n)).fold(0.0, f64::max)
 }
 
 /// How far a vertex lies off its surface. What it lies aside of its place on the surface makes no triangle worse.

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 
+use super::bends::Bends;
 use super::chords::{ChordLimits, EdgeSample, divide, divide_part};
 use super::decimate::decimate;
 use super::flatness::Flatness;
@@ -14,11 +15,13 @@ use super::mesh::{FaceMesh, Quality};
 use super::options::{TessellateError, TessellationOptions};
 use super::outline::{Ground, Outline, Run};
 use super::plane::Plane;
-use super::refine::{Refinement, Vertices};
+use super::refine::{Middles, Refinement, Vertices};
+use super::seed::seeds;
 use super::simplify::simplify;
 use super::triangulate::Region;
 use super::untangle::untangle;
 use crate::kernel::face::Face;
+use crate::kernel::trim::UvRect;
 
 /// Vertices along every run of a face, `[chain][run]`, both ends of each included.
 pub type Boundary = Vec<Vec<Vec<EdgeSample>>>;
@@ -53,6 +56,8 @@ const CHORD_SHARE: f64 = 0.95;
 const CHORD_LIMIT: f64 = 0.985;
 /// Runs shorter than this part of the tolerance are one point.
 const NOTHING: f64 = 1e-6;
+/// Vertices of a lattice over the box of a face, for each that may lie inside.
+const MOSTLY_OUTSIDE: usize = 8;
 /// Rounds in which chords are divided for the sake of the face.
 const ROUNDS: usize = 6;
 
@@ -140,7 +145,8 @@ impl<'a> Tessellator<'a> {
         cancelled: &dyn Fn() -> bool,
     ) -> Result<(FaceMesh, Vec<LongChord>), TessellateError> {
         let flatness = self.flatness.as_ref();
-        let scale = self.scale();
+        let (bends, speed) = Bends::new(&self.ground, &self.face.domain);
+        let scale = self.scale(&bends, speed);
         let refinement = Refinement {
             ground: &self.ground,
             flatness,
@@ -148,6 +154,7 @@ impl<'a> Tessellator<'a> {
             options: &self.options,
             scale,
             domain: self.face.domain,
+            middles: Middles::default(),
         };
         let mut long = Vec::new();
         let mut vertices = Vertices::default();
@@ -177,7 +184,9 @@ impl<'a> Tessellator<'a> {
             }
             loops.push(ring.into_iter().map(|r| r.0).collect());
         }
-        self.align(&mut vertices.uvs);
+        if self.plane.is_none() {
+            self.align(&mut vertices.uvs);
+        }
         let places: Vec<DVec2> = match &self.plane {
             Some(plane) => vertices.positions.iter().map(|p| plane.coordinates(*p)).collect(),
             None => vertices.uvs.iter().map(|uv| *uv * scale).collect(),
@@ -194,6 +203,9 @@ impl<'a> Tessellator<'a> {
         }
         let fixed = vertices.uvs.len();
         if !(self.plane.is_some() && self.options.max_edge.is_none()) {
+            if self.plane.is_none() {
+                self.sow(&bends, &refinement, &mut region, &mut vertices)?;
+            }
             let refined = refinement.run(&mut region, &mut vertices, cancelled)?;
             quality.error = refined.error;
             quality.over_tolerance = refined.over;
@@ -208,7 +220,7 @@ impl<'a> Tessellator<'a> {
         let mut triangles: Vec<[u32; 3]> =
             region.triangles().map(|[a, b, c]| if reversed { [a, c, b] } else { [a, b, c] }).collect();
         if self.plane.is_none() {
-            let within = |t: [u32; 3]| refinement.holds(&vertices, t);
+            let within = |t: [u32; 3]| refinement.hold(&vertices, std::iter::once(t));
             untangle(&mut triangles, &vertices, within);
             decimate(&mut triangles, &vertices, fixed, &refinement, cancelled);
             for [a, b] in folded(&vertices, &triangles) {
@@ -292,6 +304,27 @@ impl<'a> Tessellator<'a> {
         }
     }
 
+    /// Puts the first vertices inside.
+    fn sow(
+        &self,
+        bends: &Bends,
+        refinement: &Refinement,
+        region: &mut Region,
+        vertices: &mut Vertices,
+    ) -> Result<(), TessellateError> {
+        let around = |(low, high): (DVec2, DVec2), uv: &DVec2| (low.min(*uv), high.max(*uv));
+        let (min, max) = vertices.uvs.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around);
+        let limit = self.options.triangle_limit;
+        let bounds = UvRect { min, max };
+        // A lattice over the box may be mostly outside of the face.
+        let most = limit.saturating_mul(MOSTLY_OUTSIDE);
+        let Some(seeds) = seeds(bends, &bounds, self.tolerance, most) else {
+            return Err(TessellateError::TooManyTriangles { limit });
+        };
+        refinement.sow(region, vertices, &seeds);
+        Ok(())
+    }
+
     /// A vertex where two chords cross.
     fn add_crossing(&self, place: DVec2, refinement: &Refinement, vertices: &mut Vertices) {
         match &self.plane {
@@ -308,22 +341,9 @@ impl<'a> Tessellator<'a> {
 
     /// Factors that make the parameters even in what they do to the error: lengths of about one in either direction
     /// are what one triangle can span.
-    fn scale(&self) -> DVec2 {
-        const SAMPLES: usize = 5;
-        let domain = self.face.domain;
-        let size = domain.size();
-        let mut bend = DVec2::ZERO;
-        let mut speed = DVec2::ZERO;
-        for k in 0..SAMPLES * SAMPLES {
-            let share = DVec2::new((k % SAMPLES) as f64 + 0.5, (k / SAMPLES) as f64 + 0.5) / SAMPLES as f64;
-            let Some((patch, local)) = self.ground.locate(domain.min + size * share) else { continue };
-            let jet = patch.jet(local.x, local.y);
-            let width = patch.uv_max - patch.uv_min;
-            let normal = jet.du.cross(jet.dv).normalize_or_zero();
-            let curved = DVec2::new(jet.duu.dot(normal).abs(), jet.dvv.dot(normal).abs()) / (width * width);
-            bend += curved / (SAMPLES * SAMPLES) as f64;
-            speed += DVec2::new(jet.du.length(), jet.dv.length()) / width / (SAMPLES * SAMPLES) as f64;
-        }
+    fn scale(&self, bends: &Bends, speed: DVec2) -> DVec2 {
+        let size = self.face.domain.size();
+        let bend = bends.mean();
         let reach = |axis: usize| {
             let flat = (8.0 * self.tolerance / bend[axis].max(f64::MIN_POSITIVE)).sqrt();
             flat.min(size[axis])

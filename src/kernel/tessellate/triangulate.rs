@@ -221,6 +221,17 @@ impl Region {
         whole.then(|| [edge, edge.next(), edge.prev()].map(|e| e.is_constraint_edge()))
     }
 
+    /// The triangle of the face that has a place inside it, looked for from `hint`.
+    pub fn around(&self, at: DVec2, hint: FixedVertexHandle) -> Option<[FixedVertexHandle; 3]> {
+        match self.delaunay.locate_with_hint(point(at), hint) {
+            PositionInTriangulation::OnFace(face) => {
+                let face = self.delaunay.face(face);
+                (*face.data() == Side::Inside).then(|| face.vertices().map(|v| v.fix()))
+            }
+            _ => None,
+        }
+    }
+
     /// Puts a vertex inside the face, near `hint`. Gives the triangles around it; `None` where it would lie on a vertex,
     /// on a chord or outside.
     pub fn insert(
