@@ -23,3 +23,4 @@ const MODE_SHADED: u32 = 0u;
 const MODE_FACES: u32 = 1u;
 const MODE_UV: u32 = 2u;
 const MODE_HEAT: u32 = 3u;
+const MODE_DEVIATION: u32 = 4u;

@@ -22,3 +22,5 @@ struct View {
 
 const CAST_TRIM: u32 = 1u;  // leave out what is trimmed away
 const CAST_HEAT: u32 = 2u;  // write evaluation counts instead of normals
+const CAST_FACETS: u32 = 4u; // triangles of a tessellation are flat
+const CAST_DEVIATION: u32 = 8u; // with CAST_HEAT: their levels of deviation instead of counts

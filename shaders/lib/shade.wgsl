@@ -50,6 +50,18 @@ fn heat_colour(word: u32) -> vec3f {
     return select(some * (1.0 / (0.75 + 0.25 * f32(count))), none, count == 0u);
 }
 
+// Level of the distance between a triangle and the exact surface as a colour: 0 none, 200 the tolerance, more beyond it,
+// 255 not measured.
+fn deviation_colour(level: u32) -> vec3f {
+    let x = 0.02 * f32(level);
+    let low = mix(vec3f(0.03, 0.07, 0.42), vec3f(0.01, 0.36, 0.62), clamp(x, 0.0, 1.0));
+    let middle = mix(low, vec3f(0.06, 0.52, 0.16), clamp(x - 1.0, 0.0, 1.0));
+    let high = mix(middle, vec3f(0.85, 0.66, 0.03), clamp(x - 2.0, 0.0, 1.0));
+    let full = mix(high, vec3f(0.90, 0.24, 0.02), clamp(x - 3.0, 0.0, 1.0));
+    let beyond = select(full, vec3f(0.75, 0.0, 0.45), level > 200u);
+    return select(beyond, vec3f(0.36), level == 255u);
+}
+
 // What fat lines filled stands out of a pale grey picture.
 fn difference_colour(colour: vec3f, filled: bool) -> vec3f {
     let grey = 0.25 + 0.6 * dot(colour, vec3f(0.2126, 0.7152, 0.0722));

@@ -84,7 +84,8 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let p = ray_point(ray, z);
     let eye = -normalize(vec3f(ray.slope, 1.0));
     let heat = look.mode == MODE_HEAT;
-    var n = select(unpack_normal(here.w), unpack_heat_normal(here.w), heat);
+    let deviation = look.mode == MODE_DEVIATION;
+    var n = select(unpack_normal(here.w), unpack_heat_normal(here.w), heat || deviation);
     let outside = (dot(n, eye) >= 0.0) != ((face.flags & FACE_REVERSED) != 0u);
     n = select(-n, n, dot(n, eye) >= 0.0);
     var base = face.colour;
@@ -99,6 +100,9 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     }
     if (heat) {
         base = heat_colour(here.w);
+    }
+    if (deviation) {
+        base = deviation_colour(here.w & 255u);
     }
     if ((face.flags & FACE_SELECTED) != 0u) {
         base = mix(base, look.selected.rgb, look.selected.a);

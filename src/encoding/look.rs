@@ -53,6 +53,7 @@ impl Look {
                 DisplayMode::Faces => 1,
                 DisplayMode::Uv => 2,
                 DisplayMode::Heat => 3,
+                DisplayMode::Deviation => 4,
             },
             edges: u32::from(edges.visible),
             samples: 1.0,

@@ -13,6 +13,7 @@ pub mod order;
 pub mod ribbon;
 pub mod scene;
 pub mod subdivision;
+pub mod tessellation;
 pub mod tiling;
 pub mod view;
 
@@ -24,4 +25,5 @@ pub use mesh::{MeshOrigin, MeshScene, MeshVertex};
 pub use options::{Conceal, DisplayMode, EdgeStyle, Image, RenderOptions, Theme};
 pub use ribbon::{RibbonPiece, RibbonScene, RibbonShape, RibbonSpan};
 pub use scene::{FaceShape, FaceSlot, PackedScene};
+pub use tessellation::{PackedMesh, TessellationPart, TessellationScene};
 pub use view::{DepthRange, View};

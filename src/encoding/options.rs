@@ -1,6 +1,6 @@
 //! What a picture shall show: shared by the GPU renderer, the CPU renderer, the command line and the editor.
 
-use super::view::{CAST_HEAT, CAST_TRIM};
+use super::view::{CAST_DEVIATION, CAST_HEAT, CAST_TRIM};
 use crate::kernel::view::Camera;
 
 /// What the colours of a picture mean.
@@ -18,6 +18,8 @@ pub enum DisplayMode {
     Heat,
     /// The untrimmed surfaces, lit.
     Untrimmed,
+    /// The triangles of a tessellation by how far they are from the exact surface; rays show nothing of it.
+    Deviation,
 }
 
 /// What is done about pin holes between faces that share an edge.
@@ -105,6 +107,7 @@ pub fn cast_flags(mode: DisplayMode) -> u32 {
     match mode {
         DisplayMode::Untrimmed => 0,
         DisplayMode::Heat => CAST_TRIM | CAST_HEAT,
+        DisplayMode::Deviation => CAST_TRIM | CAST_HEAT | CAST_DEVIATION,
         DisplayMode::Shaded | DisplayMode::Faces | DisplayMode::Uv => CAST_TRIM,
     }
 }

@@ -37,6 +37,10 @@ pub struct View {
 pub const CAST_TRIM: u32 = 1;
 /// Write evaluation counts instead of normals.
 pub const CAST_HEAT: u32 = 2;
+/// Triangles of a tessellation are flat.
+pub const CAST_FACETS: u32 = 4;
+/// With [`CAST_HEAT`]: levels of the deviation of triangles instead of counts.
+pub const CAST_DEVIATION: u32 = 8;
 
 /// Depth planes of a projection, as distances along the line of sight from the eye.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -34,13 +34,15 @@ impl Renderer {
     ) {
         let size = within(device, sample.size);
         let rows = rows.start.min(size[1])..rows.end.min(size[1]);
-        let view = View::new(&sample.camera, size, sample.jitter, sample.depth, cast_flags(sample.mode));
+        let mut view = View::new(&sample.camera, size, sample.jitter, sample.depth, cast_flags(sample.mode));
+        view.flags |= self.tessellated.flags();
         let whole = rows == (0..size[1]);
         let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
         self.fit_nearest(device, size);
         if self.cast_group.is_none() {
             self.cast_group = Some(self.make_cast_group(device));
         }
+        self.prepare_tessellation(device);
         if rows.end == size[1] {
             self.reveal();
         }
@@ -69,12 +71,16 @@ impl Renderer {
 
     fn draw_rays(&self, encoder: &mut wgpu::CommandEncoder, targets: &Targets, slot: u32, rows: Range<u32>) {
         let first = rows.start == 0;
+        let columns = self.tessellated.exact_columns(targets.size[0]);
         let mut pass = begin_visibility(encoder, "cast", targets, &self.nearest, first);
-        if self.order_count > 0 && !rows.is_empty() {
-            pass.set_scissor_rect(0, rows.start, targets.size[0], rows.end - rows.start);
+        if self.order_count > 0 && !rows.is_empty() && columns > 0 {
+            pass.set_scissor_rect(0, rows.start, columns, rows.end - rows.start);
             pass.set_pipeline(&self.pipelines.cast.pipeline);
             pass.set_bind_group(0, &self.cast_group, &[slot]);
             pass.draw(0..14, 0..self.order_count);
+        }
+        if rows.end == targets.size[1] {
+            self.tessellated.draw(&mut pass, slot, targets.size);
         }
     }
 

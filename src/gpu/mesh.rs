@@ -157,7 +157,8 @@ impl Renderer {
         sample: &Sample,
     ) {
         let size = within(device, sample.size);
-        let view = View::new(&sample.camera, size, sample.jitter, sample.depth, cast_flags(sample.mode));
+        let mut view = View::new(&sample.camera, size, sample.jitter, sample.depth, cast_flags(sample.mode));
+        view.flags |= self.tessellated.flags();
         let slot = self.write_uniform(queue, bytemuck::bytes_of(&view));
         if self.targets.size != size {
             self.targets = Targets::new(device, size);
@@ -168,12 +169,19 @@ impl Renderer {
         self.view = view;
         self.fit_nearest(device, size);
         self.reveal();
+        self.prepare_tessellation(device);
         let uniform = view_binding(&self.uniforms);
         let cast = &self.pipelines.cast;
-        let Some(mesh) = &mut self.mesh else { return };
-        mesh.prepare(device, uniform, &self.buffers, &self.nearest, cast);
+        let columns = self.tessellated.exact_columns(size[0]);
+        if let Some(mesh) = &mut self.mesh {
+            mesh.prepare(device, uniform, &self.buffers, &self.nearest, cast);
+        }
         let mut pass = begin_visibility(encoder, "mesh", &self.targets, &self.nearest, true);
-        mesh.draw(&mut pass, slot, cast);
+        if let Some(mesh) = self.mesh.as_ref().filter(|_| columns > 0) {
+            pass.set_scissor_rect(0, 0, columns, size[1]);
+            mesh.draw(&mut pass, slot, cast);
+        }
+        self.tessellated.draw(&mut pass, slot, size);
     }
 }
 

@@ -17,6 +17,7 @@ pub mod renderer;
 mod ribbons;
 pub mod shaders;
 pub mod targets;
+mod tessellation;
 
 pub use buffers::Uploaded;
 pub use context::Context;

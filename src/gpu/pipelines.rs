@@ -189,6 +189,28 @@ pub(super) fn mesh(device: &wgpu::Device) -> Pass {
     )
 }
 
+/// The pipeline that draws the triangles of a tessellation; both sides are seen.
+pub(super) fn tessellation(device: &wgpu::Device) -> Pass {
+    let mut bindings = vec![uniform(size_of::<View>())];
+    bindings.extend([STORAGE; 4]);
+    build(
+        device,
+        &Recipe {
+            label: "tessellation",
+            source: shaders::TESSELLATION,
+            fragment: "fragment",
+            bindings: &bindings,
+            target: wgpu::ColorTargetState {
+                format: VISIBILITY_FORMAT,
+                blend: None,
+                write_mask: wgpu::ColorWrites::ALL,
+            },
+            depth: Some(wgpu::CompareFunction::Greater),
+            strip: None,
+        },
+    )
+}
+
 fn build(device: &wgpu::Device, recipe: &Recipe) -> Pass {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(recipe.label),

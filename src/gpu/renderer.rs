@@ -11,6 +11,7 @@ use super::mesh::MeshPass;
 use super::pipelines::Pipelines;
 use super::ribbons::RibbonPass;
 use super::targets::{Sum, Targets};
+use super::tessellation::Tessellated;
 use crate::encoding::view::DepthRange;
 use crate::encoding::{DisplayMode, EdgeStyle, Look, PackedScene, Theme, View};
 use crate::kernel::view::Camera;
@@ -57,6 +58,8 @@ pub struct Renderer {
     pub(super) samples: u32,
     /// Made when triangles are first drawn.
     pub(super) mesh: Option<MeshPass>,
+    /// Triangles in place of faces.
+    pub(super) tessellated: Tessellated,
     /// Made when fat lines are first drawn.
     pub(super) ribbons: Option<RibbonPass>,
     /// Whether the picture shown has its holes filled, and whether what was filled stands out.
@@ -95,6 +98,7 @@ impl Renderer {
             present_group: None,
             samples: 0,
             mesh: None,
+            tessellated: Tessellated::default(),
             ribbons: None,
             concealed: false,
             difference: false,

@@ -49,6 +49,17 @@ pub const CONCEAL: &str = pieces!(
     "pass/conceal.wgsl",
 );
 
+/// Draws the triangles of a tessellation.
+pub const TESSELLATION: &str = pieces!(
+    "layout/view.wgsl",
+    "layout/face.wgsl",
+    "layout/mesh.wgsl",
+    "layout/tessellation.wgsl",
+    "lib/axes.wgsl",
+    "lib/pack.wgsl",
+    "pass/tessellation.wgsl",
+);
+
 /// Shades the visibility buffer.
 pub const RESOLVE: &str = pieces!(
     "layout/face.wgsl",
@@ -63,5 +74,11 @@ pub const RESOLVE: &str = pieces!(
 pub const PRESENT: &str = pieces!("layout/look.wgsl", "lib/shade.wgsl", "pass/present.wgsl");
 
 /// Every module with its name, for validation.
-pub const MODULES: [(&str, &str); 5] =
-    [("cast", CAST), ("mesh", MESH), ("conceal", CONCEAL), ("resolve", RESOLVE), ("present", PRESENT)];
+pub const MODULES: [(&str, &str); 6] = [
+    ("cast", CAST),
+    ("mesh", MESH),
+    ("tessellation", TESSELLATION),
+    ("conceal", CONCEAL),
+    ("resolve", RESOLVE),
+    ("present", PRESENT),
+];

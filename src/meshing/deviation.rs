@@ -1,7 +1,7 @@
 //! How far every single triangle is from the exact face: what a heat map shows.
 //!
 //! The vertices of a mesh lie on the surface, so a figure per vertex would say nothing; each triangle is sampled inside and
-//! along its edges, by the same distances as [`super::measure`]. Triangles go in parallel; the result does not depend on
+//! along its edges, by the same distances as [`mod@super::measure`]. Triangles go in parallel; the result does not depend on
 //! how many threads there are.
 
 use rayon::prelude::*;

@@ -5,7 +5,9 @@ use glam::{IVec2, Vec2, Vec3, Vec4};
 use super::cast::Fragment;
 use super::pack::{unpack_heat_normal, unpack_normal};
 use super::ray::{Ray, ray_point};
-use super::shade::{difference_colour, face_palette, heat_colour, inside_tint, lit, mix, uv_board};
+use super::shade::{
+    deviation_colour, difference_colour, face_palette, heat_colour, inside_tint, lit, mix, uv_board,
+};
 use super::visibility::VisibilityBuffer;
 use crate::encoding::{FaceHeader, Look};
 
@@ -13,6 +15,7 @@ const MODE_SHADED: u32 = 0;
 const MODE_FACES: u32 = 1;
 const MODE_UV: u32 = 2;
 const MODE_HEAT: u32 = 3;
+const MODE_DEVIATION: u32 = 4;
 /// Wider lines are cut to this.
 const MOST_EDGE_PIXELS: i32 = 4;
 
@@ -100,7 +103,7 @@ pub fn resolve(look: &Look, faces: &[FaceHeader], buffer: &VisibilityBuffer, x: 
     let ray = ray_at(look, Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + Vec2::from(look.jitter));
     let p = ray_point(ray, z);
     let eye = -ray.slope.extend(1.0).normalize();
-    let heat = look.mode == MODE_HEAT;
+    let heat = matches!(look.mode, MODE_HEAT | MODE_DEVIATION);
     let mut n = if heat { unpack_heat_normal(here.words[3]) } else { unpack_normal(here.words[3]) };
     let outside = (n.dot(eye) >= 0.0) != (face.flags & FaceHeader::REVERSED != 0);
     if n.dot(eye) < 0.0 {
@@ -112,6 +115,7 @@ pub fn resolve(look: &Look, faces: &[FaceHeader], buffer: &VisibilityBuffer, x: 
         MODE_FACES => base = face_palette(face.number),
         MODE_UV => base = uv_board(Vec2::new(f32::from_bits(here.words[1]), f32::from_bits(here.words[2]))),
         MODE_HEAT => base = heat_colour(here.words[3]),
+        MODE_DEVIATION => base = deviation_colour(here.words[3] & 255),
         _ => {}
     }
     let tint = |base: Vec3, by: [f32; 4]| mix(base, Vec3::new(by[0], by[1], by[2]), by[3]);

@@ -65,6 +65,22 @@ pub fn heat_colour(word: u32) -> Vec3 {
     }
 }
 
+/// Level of the distance between a triangle and the exact surface as a colour: 0 none, 200 the tolerance, more beyond it,
+/// 255 not measured.
+pub fn deviation_colour(level: u32) -> Vec3 {
+    match level {
+        255 => return Vec3::splat(0.36),
+        201.. => return Vec3::new(0.75, 0.0, 0.45),
+        _ => {}
+    }
+    let x = 0.02 * level as f32;
+    let to = |from: Vec3, to: Vec3, step: f32| mix(from, to, (x - step).clamp(0.0, 1.0));
+    let low = to(Vec3::new(0.03, 0.07, 0.42), Vec3::new(0.01, 0.36, 0.62), 0.0);
+    let middle = to(low, Vec3::new(0.06, 0.52, 0.16), 1.0);
+    let high = to(middle, Vec3::new(0.85, 0.66, 0.03), 2.0);
+    to(high, Vec3::new(0.90, 0.24, 0.02), 3.0)
+}
+
 /// sRGB encoding.
 pub fn srgb_from_linear(c: Vec3) -> Vec3 {
     let encode = |x: f32| {

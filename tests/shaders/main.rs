@@ -8,5 +8,6 @@ mod holes;
 mod modules;
 mod oracle;
 mod pictures;
+mod tessellation;
 
 mod triangles;

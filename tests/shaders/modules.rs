@@ -3,7 +3,9 @@
 use std::mem::offset_of;
 
 use hairline::encoding::cell::Cell;
-use hairline::encoding::{FaceHeader, Look, MeshOrigin, MeshVertex, RibbonPiece, RibbonSpan, View};
+use hairline::encoding::{
+    FaceHeader, Look, MeshOrigin, MeshVertex, RibbonPiece, RibbonSpan, TessellationPart, View,
+};
 use hairline::gpu::shaders;
 use hairline::kernel::trim::grid::GridHeader;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -64,6 +66,13 @@ fn rust_mirrors_match_the_shaders() {
     let vertex = layout!(MeshVertex: position, face, normal, flags, uv, pad0, pad1);
     assert_eq!(members(&mesh, "MeshVertex"), vertex);
     assert_eq!(members(&mesh, "MeshOrigin"), layout!(MeshOrigin: high, pad0, low, pad1));
+    let tessellation = parse(shaders::TESSELLATION);
+    assert_eq!(
+        members(&tessellation, "MeshVertex"),
+        layout!(MeshVertex: position, face, normal, flags, uv, pad0, pad1)
+    );
+    let part = layout!(TessellationPart: high, slot, low, pad0);
+    assert_eq!(members(&tessellation, "TessellationPart"), part);
     for module in [&cast, &mesh, &resolve] {
         let (mut list, span) = members(module, "FaceHeader");
         list.retain(|(name, _)| !name.starts_with("pad"));
@@ -84,6 +93,9 @@ fn constants_match() {
     let cast = parse(shaders::CAST);
     assert_eq!(find(&cast, "CAST_TRIM"), hairline::encoding::view::CAST_TRIM);
     assert_eq!(find(&cast, "CAST_HEAT"), hairline::encoding::view::CAST_HEAT);
+    let tessellation = parse(shaders::TESSELLATION);
+    assert_eq!(find(&tessellation, "CAST_FACETS"), hairline::encoding::view::CAST_FACETS);
+    assert_eq!(find(&tessellation, "CAST_DEVIATION"), hairline::encoding::view::CAST_DEVIATION);
     assert_eq!(find(&cast, "CELL_WHOLE"), Cell::WHOLE);
     assert_eq!(find(&cast, "FACE_TRIMMED"), FaceHeader::TRIMMED);
     assert_eq!(find(&parse(shaders::MESH), "MESH_WHOLE"), MeshVertex::WHOLE);
