@@ -25,6 +25,7 @@ pub mod render;
 pub mod selection;
 pub mod settings;
 mod startup;
+pub mod tessellation;
 pub mod theme;
 pub mod tools;
 pub mod uv;
@@ -88,7 +89,7 @@ impl Plugin for EditorPlugin {
             uv::UvPlugin,
             handles::HandlesPlugin,
             picking::PickingPlugin { windowed: self.windowed },
-            inspection::InspectionPlugin,
+            (inspection::InspectionPlugin, tessellation::TessellationPlugin),
             redraw::RedrawPlugin,
         ))
         .init_resource::<panels::Notices>()

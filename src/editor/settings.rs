@@ -6,6 +6,7 @@ use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::EditorSystems;
+use super::tessellation::TessellationChoices;
 use super::tools::{Action, CommandRequest};
 use crate::encoding::Conceal;
 
@@ -138,6 +139,8 @@ pub struct Settings {
     /// What can be dragged in the 3D view.
     #[serde(skip)]
     pub handles: Handles,
+    /// What is shown of the tessellation, and how it is made.
+    pub tessellation: TessellationChoices,
     /// Files opened lately, latest first.
     pub recent: Vec<PathBuf>,
 }
@@ -167,6 +170,7 @@ impl Default for Settings {
             uv: false,
             uv_beside: false,
             handles: Handles::None,
+            tessellation: TessellationChoices::default(),
             recent: Vec::new(),
         }
     }

@@ -13,6 +13,7 @@ mod recovery;
 #[cfg(target_os = "linux")]
 mod screen;
 mod settings;
+mod tessellation;
 mod uv;
 #[cfg(target_os = "linux")]
 mod uv_window;

@@ -27,10 +27,18 @@ fn choices_survive_a_restart() {
     first.world_mut().write_message(CommandRequest(Action::ToggleTheme));
     first.update();
     remember(&mut first.world_mut().resource_mut::<Settings>(), std::path::Path::new("/models/a.igs"));
+    {
+        let choices = &mut first.world_mut().resource_mut::<Settings>().tessellation;
+        (choices.tolerance_mm, choices.wipe) = (Some(0.25), 0.75);
+        choices.view = hairline::editor::tessellation::TessellationView::Wipe;
+    }
     first.update();
     let second = app(path);
     let settings = second.world().resource::<Settings>();
     assert!(settings.light);
+    assert_eq!((settings.tessellation.tolerance_mm, settings.tessellation.wipe), (Some(0.25), 0.75));
+    // Meshing a large model takes a while: nobody asked for it yet.
+    assert_eq!(settings.tessellation.view, hairline::editor::tessellation::TessellationView::Off);
     assert_eq!(settings.recent, [std::path::PathBuf::from("/models/a.igs")]);
 }
 

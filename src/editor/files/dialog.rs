@@ -1,12 +1,13 @@
 //! The dialogs in which files are named.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use bevy::prelude::*;
 use egui_file_dialog::FileDialog;
 
 use super::{OpenFiles, Source};
 use crate::editor::document::{Discarding, SaveRequest, Target};
+use crate::editor::tessellation::MeshFormat;
 use crate::editor::tools::{Action, CommandRequest};
 use crate::scene::file::EXTENSION;
 
@@ -21,6 +22,8 @@ pub enum Purpose {
     Save(Option<Discarding>),
     /// To be written as IGES.
     Export,
+    /// To be written as triangles.
+    Mesh,
 }
 
 /// The dialog and what it was opened for.
@@ -38,6 +41,8 @@ pub enum Picked {
     Open(OpenFiles),
     /// A file to write.
     Save(SaveRequest),
+    /// A mesh to write.
+    Mesh(PathBuf),
 }
 
 impl Default for FileDialogs {
@@ -89,10 +94,17 @@ impl FileDialogs {
                 to_save("Save scene", &format!("{stem}.{EXTENSION}"), "Scene", EXTENSION, own)
             }
             Purpose::Export => to_save("Export IGES", &format!("{stem}.igs"), "IGES", "igs", own),
+            Purpose::Mesh => {
+                let [(_, usual, ending), others @ ..] = MeshFormat::ALL;
+                let dialog = to_save("Export mesh", &format!("{stem}.{ending}"), usual, ending, own);
+                others
+                    .iter()
+                    .fold(dialog, |dialog, (_, name, ending)| dialog.add_save_extension(name, ending))
+            }
         };
         match &purpose {
             Purpose::Open | Purpose::Import => self.dialog.pick_multiple(),
-            Purpose::Save(_) | Purpose::Export => self.dialog.save_file(),
+            Purpose::Save(_) | Purpose::Export | Purpose::Mesh => self.dialog.save_file(),
         }
         self.purpose = purpose;
     }
@@ -112,6 +124,7 @@ impl FileDialogs {
                 let target = Target::File(self.dialog.take_picked()?);
                 Some(Picked::Save(SaveRequest { target, then }))
             }
+            Purpose::Mesh => Some(Picked::Mesh(self.dialog.take_picked()?)),
             Purpose::Export => {
                 let target = Target::Export(self.dialog.take_picked()?);
                 Some(Picked::Save(SaveRequest { target, then: None }))

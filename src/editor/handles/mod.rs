@@ -29,6 +29,10 @@ use super::settings::{Handles, Settings};
 use super::uv::UvPanel;
 use super::viewport::Viewport;
 
+/// The system that looks at presses before others do.
+#[derive(SystemSet, Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct HandleInput;
+
 /// Adds the handles.
 pub struct HandlesPlugin;
 
@@ -37,7 +41,7 @@ impl Plugin for HandlesPlugin {
         app.init_resource::<HandleShapes>()
             .init_resource::<HandleHand>()
             .init_resource::<HandleDrawing>()
-            .add_systems(Update, input::follow.in_set(EditorSystems::Input).in_set(super::NavigationInput))
+            .add_systems(Update, input::follow.in_set(super::NavigationInput).in_set(HandleInput))
             .add_systems(
                 Update,
                 (trace_handles, drawing::draw)

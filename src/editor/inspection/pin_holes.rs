@@ -95,9 +95,9 @@ impl PinHoles {
     }
 }
 
-/// Whether holes are looked for and marked.
+/// Whether holes are looked for and marked: not in pictures of triangles.
 pub fn are_marked(settings: &Settings) -> bool {
-    settings.pin_holes && settings.inspection
+    settings.pin_holes && settings.inspection && !settings.tessellation.replaces_surfaces()
 }
 
 /// A click on a mark chooses the edge, and not the face behind it.

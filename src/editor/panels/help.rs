@@ -24,9 +24,9 @@ pub(super) fn show(ctx: &Context, palette: &Palette, open: &mut bool) {
                 |ui| {
                     ui.columns(3, |columns| {
                         for (column, menus) in columns.iter_mut().zip([
-                            &[Menu::File, Menu::Edit, Menu::Help][..],
+                            &[Menu::File, Menu::Edit, Menu::Inspect, Menu::Help][..],
                             &[Menu::Loop, Menu::Curve, Menu::Surface][..],
-                            &[Menu::View, Menu::Display][..],
+                            &[Menu::View, Menu::Display, Menu::Tessellation][..],
                         ]) {
                             for menu in menus {
                                 group(column, palette, *menu);

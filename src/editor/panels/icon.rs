@@ -48,6 +48,8 @@ pub(in crate::editor) enum Icon {
     Curves,
     Net,
     UvEditor,
+    Triangles,
+    Wipe,
 }
 
 /// Draws `icon` in the middle of `rect`, 16 points wide.
@@ -129,6 +131,16 @@ pub(in crate::editor) fn paint(painter: &Painter, rect: Rect, icon: Icon, color:
             closed(&[(2.0, 2.0), (14.0, 2.0), (14.0, 14.0), (2.0, 14.0)]);
             painter.circle_filled(at(8.0, 8.0), 3.4, dim(0.45));
             circle(8.0, 8.0, 3.4);
+        }
+        Icon::Triangles => {
+            closed(&[(1.5, 13.5), (5.5, 2.5), (14.5, 6.0), (11.0, 14.0)]);
+            line(&[(1.5, 13.5), (8.0, 8.5), (5.5, 2.5)]);
+            line(&[(14.5, 6.0), (8.0, 8.5), (11.0, 14.0)]);
+        }
+        Icon::Wipe => {
+            circle(8.0, 8.0, 5.5);
+            fill(&[(8.0, 3.0), (12.3, 5.5), (12.3, 10.5), (8.0, 13.0)], dim(0.5));
+            line(&[(8.0, 0.5), (8.0, 15.5)]);
         }
         Icon::Edges => {
             closed(&TOP);

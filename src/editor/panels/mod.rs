@@ -20,6 +20,7 @@ mod properties;
 mod question;
 mod report;
 mod status;
+mod tessellation;
 mod toolbar;
 mod tree;
 mod tree_look;
@@ -47,6 +48,7 @@ use super::picking::{LeftButton, Picker};
 use super::problems::ProblemList;
 use super::selection::{SelectRequest, Selection, VisibilityRequest};
 use super::settings::Settings;
+use super::tessellation::TessellationRequest;
 use super::theme::{self, Palette};
 use super::tools::{Action, CommandRequest, CurrentSituation};
 use super::uv::{self, UvParams};
@@ -178,6 +180,7 @@ fn show(
     mut writes: Writes,
     mut owned: Owned,
     mut inspection: inspection::InspectionState,
+    mut tessellation: tessellation::TessellationPanel,
     mut uv: UvParams,
 ) -> Result {
     let ctx = contexts.ctx_mut()?.clone();
@@ -197,6 +200,7 @@ fn show(
     if reads.settings.report {
         report::show(&mut root, &reads, &mut writes, &mut owned);
     }
+    tessellation::show(&mut root, &reads, &mut writes, &mut tessellation);
     if reads.settings.inspection {
         inspection::show(&mut root, &reads, &mut writes, &mut inspection);
     }
@@ -217,11 +221,13 @@ fn show(
     set_viewport(&mut owned.viewport, rect, windows.single().map_or(1.0, Window::scale_factor), &mut writes);
     handles::overlay::show(&root, rect, &reads.camera.now, &owned.viewport, uv.active(), &reads.palette);
     inspection::overlay(&root, rect, &reads, &owned.viewport, &inspection);
+    tessellation::overlay(&root, rect, &reads, &owned.viewport, &tessellation, &inspection);
     view_cube::show(&root, rect, &reads, &mut writes);
     let read_back = (&*inspection.picture, &*inspection.holes);
     lens::show(&root, rect, &reads, (&owned.viewport, &reads.pointer), read_back);
     progress::show(&ctx, rect, &reads, &mut writes);
     let beside_legend = inspection::beside_legend(rect, &reads, &inspection);
+    let beside_legend = tessellation::beside_legend(beside_legend, &reads, &tessellation);
     notice::show(&ctx, beside_legend, &reads.palette, &mut owned.notices);
     help::show(&ctx, &reads.palette, &mut owned.state.help);
     about::show(&ctx, &reads.palette, &mut owned.state.about);
@@ -233,6 +239,7 @@ fn show(
         match picked {
             Picked::Open(files) => drop(writes.open.write(files)),
             Picked::Save(request) => drop(writes.save.write(request)),
+            Picked::Mesh(path) => drop(tessellation.requests.write(TessellationRequest::Export(path))),
         }
         writes.redraw.write(RequestRedraw);
     }

@@ -6,6 +6,7 @@ use bevy_egui::egui::{self, Align, Color32, CornerRadius, Frame, Layout, Margin,
 use super::icon::{self, Icon};
 use super::{Reads, Writes};
 use crate::editor::settings::{DisplayMode, Handles};
+use crate::editor::tessellation::TessellationView;
 use crate::editor::tools::{Action, CommandRequest};
 
 /// Shows the toolbar.
@@ -34,6 +35,9 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes) {
             gap(ui, reads);
             button(ui, Icon::Edges, Action::ToggleEdges, reads, writes);
             button(ui, Icon::Grid, Action::ToggleGrid, reads, writes);
+            gap(ui, reads);
+            button(ui, Icon::Triangles, Action::Tessellation(TessellationView::Overlay), reads, writes);
+            button(ui, Icon::Wipe, Action::Tessellation(TessellationView::Wipe), reads, writes);
             gap(ui, reads);
             button(ui, Icon::UvEditor, Action::ToggleUv, reads, writes);
             button(ui, Icon::Curves, Action::Handles(Handles::Curves), reads, writes);

@@ -15,7 +15,7 @@ use crate::editor::camera::CameraRequest;
 /// Half the edge of the cube, points.
 const HALF: f64 = 27.0;
 /// Room for the cube in every position, and its distance from the corner of the viewport.
-const ROOM: f32 = 110.0;
+pub(super) const ROOM: f32 = 110.0;
 /// Share of a face's half width that belongs to its middle cell.
 const INNER: f64 = 0.62;
 

@@ -76,6 +76,11 @@ impl RenderFaces {
         Some((origin.derived.face.as_deref()?, origin.slot?))
     }
 
+    /// The slot of a face that is shown.
+    pub fn shown_slot(&self, entity: Entity) -> Option<FaceSlot> {
+        self.origins.get(&entity).filter(|o| o.shown)?.slot
+    }
+
     /// The face in a slot.
     pub fn entity(&self, slot: u32) -> Option<Entity> {
         self.entities.get(slot as usize).copied().flatten()

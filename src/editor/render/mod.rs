@@ -20,7 +20,9 @@ mod pick;
 pub mod quality;
 mod ribbons;
 mod strokes;
+mod tessellation;
 mod triangles;
+mod wires;
 
 use bevy::core_pipeline::Core3d;
 use bevy::core_pipeline::Core3dSystems;
@@ -68,6 +70,7 @@ impl Plugin for RenderPlugin {
             .init_resource::<faces::RenderFaces>()
             .init_resource::<ribbons::RenderRibbons>()
             .init_resource::<triangles::RenderTriangles>()
+            .init_resource::<tessellation::RenderTessellation>()
             .init_resource::<edges::RenderEdges>()
             .init_resource::<handles::ExtractedHandles>()
             .init_resource::<Waker>()
@@ -77,6 +80,7 @@ impl Plugin for RenderPlugin {
                     backdrop::create,
                     lines::create,
                     edges::create,
+                    wires::create,
                     model::create,
                     highlight::create,
                     pick::create,
@@ -87,7 +91,7 @@ impl Plugin for RenderPlugin {
                 ExtractSchedule,
                 (
                     frame::extract,
-                    (faces::extract, ribbons::extract).chain(),
+                    (faces::extract, ribbons::extract, tessellation::extract).chain(),
                     edges::extract,
                     handles::extract,
                     mark,
@@ -102,6 +106,7 @@ impl Plugin for RenderPlugin {
                     pick::copy,
                     holes::copy,
                     lines::draw,
+                    wires::draw,
                     edges::draw,
                     handles::draw,
                 )

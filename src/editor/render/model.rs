@@ -12,6 +12,7 @@ use super::faces::RenderFaces;
 use super::frame::FrameView;
 use super::quality::{Next, Plan, Quality, SAMPLES, STRIPS, Way};
 use super::ribbons::RenderRibbons;
+use super::tessellation::RenderTessellation;
 use super::triangles::RenderTriangles;
 use crate::editor::diagnostics::RenderFigures;
 use crate::editor::inspection::are_marked;
@@ -43,6 +44,8 @@ pub(super) struct ModelPass {
     failure: Option<String>,
     /// Revision of the fat lines on the GPU.
     ribbons: Option<u64>,
+    /// Revision of the tessellation on the GPU.
+    tessellation: Option<u64>,
 }
 
 /// What decides which ray hits what.
@@ -56,12 +59,16 @@ struct CastKey {
     surfaces: Surfaces,
     /// Revision of the triangles, where they are what is shown at rest.
     triangles: Option<u64>,
+    /// Where triangles of the tessellation are in the place of faces, whether they are flat, and their revision.
+    tessellation: Option<(f32, bool, u64)>,
+    /// Whether they carry their errors.
+    error: bool,
 }
 
 /// What decides the colour of a hit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct ShadeKey {
-    mode: DisplayMode,
+    mode: encoding::DisplayMode,
     edges: bool,
     holes: Conceal,
     /// Revision of the fat lines.
@@ -78,6 +85,7 @@ pub(super) fn create(
     triangles.scene.touch_all();
     commands.insert_resource(ModelPass {
         ribbons: None,
+        tessellation: None,
         renderer: None,
         quality: Quality::careful(),
         cast: None,
@@ -103,10 +111,11 @@ fn mode_of(mode: DisplayMode) -> encoding::DisplayMode {
 pub(super) fn draw(
     view: ViewQuery<(&ViewTarget, &ViewDepthTexture), With<super::DrawsModel>>,
     mut pass: ResMut<ModelPass>,
-    (mut faces, mut triangles, mut ribbons): (
+    (mut faces, mut triangles, mut ribbons, mut tessellation): (
         ResMut<RenderFaces>,
         ResMut<RenderTriangles>,
         ResMut<RenderRibbons>,
+        ResMut<RenderTessellation>,
     ),
     frame: Res<FrameView>,
     figures: Res<RenderFigures>,
@@ -122,7 +131,7 @@ pub(super) fn draw(
         pass.renderer = Some((format, Renderer::new(device, format)));
         ribbons.scene.touch_all();
         pass.cast = None;
-        pass.ribbons = None;
+        (pass.ribbons, pass.tessellation) = (None, None);
         if pass.casts > 0 {
             faces.repack();
         }
@@ -143,10 +152,27 @@ pub(super) fn draw(
         }
     }
     let (min, size) = frame.viewport.physical();
-    let mode = frame.settings.mode;
+    let mode = if tessellation.shows_error() {
+        encoding::DisplayMode::Deviation
+    } else {
+        mode_of(frame.settings.mode)
+    };
+    if pass.tessellation != Some(tessellation.revision) {
+        if let Err(error) = renderer.upload_tessellation(device, &queue, &mut tessellation.scene) {
+            error!("the tessellation cannot be drawn: {error}");
+        }
+        pass.tessellation = Some(tessellation.revision);
+    }
+    let (from, facets) = (tessellation.from(), frame.settings.tessellation.facets);
+    renderer.show_tessellation(from, facets);
+    let only_tessellated = from == Some(0.0);
     // Holes between triangles are of the triangles: where holes are looked for all the time, there are rays all the time.
     let for_holes = are_marked(&frame.settings) && frame.settings.holes_moving;
-    let surfaces = if for_holes { Surfaces::Rays } else { frame.settings.surfaces };
+    let surfaces = match (only_tessellated, for_holes) {
+        (true, _) => Surfaces::Triangles,
+        (false, true) => Surfaces::Rays,
+        (false, false) => frame.settings.surfaces,
+    };
     triangles.forget(faces.changed.drain(..));
     if let Some((way, ms)) = frame.cast_ms {
         pass.quality.measure(way, frame.cast_scale, ms, figures.lock().frame_ms);
@@ -156,6 +182,7 @@ pub(super) fn draw(
     }
     // Made ready at rest too, so that they are there when the next motion starts.
     let lacking = match pass.quality.wants_triangles(surfaces) {
+        true if only_tessellated => Some(Vec::new()),
         true => triangles.prepare(&faces, &LevelView::new(&frame.camera, size.to_array()), &waker),
         false => None,
     };
@@ -164,12 +191,15 @@ pub(super) fn draw(
         camera: frame.camera,
         size,
         geometry: faces.geometry,
-        heat: mode == DisplayMode::Heat,
-        untrimmed: mode == DisplayMode::Untrimmed,
+        heat: mode == encoding::DisplayMode::Heat,
+        untrimmed: mode == encoding::DisplayMode::Untrimmed,
         surfaces,
-        triangles: are_shown.then(|| triangles.scene.revision()),
+        triangles: (are_shown && !only_tessellated).then(|| triangles.scene.revision()),
+        tessellation: from.map(|from| (from, facets, tessellation.revision)),
+        error: tessellation.shows_error(),
     };
-    let holes = if ribbons.is_ready() { frame.settings.holes } else { Conceal::Raw };
+    // Triangles that share their vertices have no holes.
+    let holes = if ribbons.is_ready() && from.is_none() { frame.settings.holes } else { Conceal::Raw };
     let fat_lines = if holes == Conceal::Raw { 0 } else { ribbons.revision };
     let shade = ShadeKey { mode, edges: frame.settings.edges, holes, ribbons: fat_lines };
     if pass.ribbons != Some(fat_lines) && holes != Conceal::Raw {
@@ -212,7 +242,7 @@ pub(super) fn draw(
                 let difference = holes == Conceal::Difference;
                 renderer.conceal(device, &queue, ctx.command_encoder(), &spans, difference);
             }
-            renderer.shade(device, &queue, ctx.command_encoder(), mode_of(mode), edges, true);
+            renderer.shade(device, &queue, ctx.command_encoder(), mode, edges, true);
         }
         Plan::Cast { way, scale, sample, from, to } => {
             let scaled = (size.as_vec2() * scale).ceil().as_uvec2().max(UVec2::ONE);
@@ -221,11 +251,14 @@ pub(super) fn draw(
                 depth: DepthRange { near: frame.clip.near, far: frame.clip.far },
                 size: scaled.to_array(),
                 jitter: jitter(sample),
-                mode: mode_of(mode),
+                mode,
             };
             let row = |strip: u32| (u64::from(scaled.y) * u64::from(strip) / u64::from(STRIPS)) as u32;
             let rows = row(from)..row(to);
             match way {
+                Way::Triangles if only_tessellated => {
+                    renderer.draw_meshes(device, &queue, ctx.command_encoder(), &rays);
+                }
                 Way::Triangles => {
                     let (scene, lacking) = (&mut triangles.scene, lacking.as_deref().unwrap_or_default());
                     let sent = renderer.upload_meshes(device, &queue, scene, &faces.packed, lacking);
@@ -241,14 +274,7 @@ pub(super) fn draw(
                     let difference = holes == Conceal::Difference;
                     renderer.conceal(device, &queue, ctx.command_encoder(), &spans, difference);
                 }
-                renderer.shade(
-                    device,
-                    &queue,
-                    ctx.command_encoder(),
-                    mode_of(mode),
-                    edges_at(scale),
-                    sample == 0,
-                );
+                renderer.shade(device, &queue, ctx.command_encoder(), mode, edges_at(scale), sample == 0);
                 pass.casts += 1;
             }
         }

@@ -175,10 +175,21 @@ impl StrokeDraw {
 pub(super) fn draw_all(
     draws: &[StrokeDraw],
     label: &str,
-    (target, depth): (&ViewTarget, &ViewDepthTexture),
+    target: (&ViewTarget, &ViewDepthTexture),
     frame: &FrameView,
     ctx: &mut RenderContext,
 ) {
+    let mut pass = begin(label, target, frame, ctx);
+    draws.iter().for_each(|draw| draw.draw(&mut pass));
+}
+
+/// A pass over the viewport for such draws.
+pub(super) fn begin<'a>(
+    label: &str,
+    (target, depth): (&ViewTarget, &ViewDepthTexture),
+    frame: &FrameView,
+    ctx: &'a mut RenderContext,
+) -> wgpu::RenderPass<'a> {
     let mut pass = ctx.command_encoder().begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(label),
         color_attachments: &[Some(super::keep(target.main_texture_view()))],
@@ -192,7 +203,7 @@ pub(super) fn draw_all(
         multiview_mask: None,
     });
     super::confine(&mut pass, frame, target.main_texture().size());
-    draws.iter().for_each(|draw| draw.draw(&mut pass));
+    pass
 }
 
 /// An opaque colour as the shader gets it.

@@ -7,8 +7,9 @@ use bevy::prelude::Message;
 use super::edit_action::EditAction;
 use super::key::Shortcut;
 use super::situation::Situation;
-use super::{display_table, edit_table, file_table, view_table};
+use super::{display_table, edit_table, file_table, tessellation_table, view_table};
 use crate::editor::settings::{DisplayMode, Handles, HoleMarks, Settings, Surfaces};
+use crate::editor::tessellation::TessellationView;
 use crate::encoding::Conceal;
 use crate::kernel::view::StandardView;
 
@@ -62,6 +63,10 @@ pub enum Action {
     Display(DisplayMode),
     Holes(Conceal),
     Surfaces(Surfaces),
+    Tessellation(TessellationView),
+    ToggleTriangleEdges,
+    ToggleFacets,
+    ExportMesh,
     ToggleEdges,
     ToggleGrid,
     ToggleTheme,
@@ -84,13 +89,14 @@ pub enum Menu {
     Surface,
     View,
     Display,
+    Tessellation,
     Inspect,
     Help,
 }
 
 impl Menu {
     /// All menus from left to right.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::File,
         Self::Edit,
         Self::Loop,
@@ -98,6 +104,7 @@ impl Menu {
         Self::Surface,
         Self::View,
         Self::Display,
+        Self::Tessellation,
         Self::Inspect,
         Self::Help,
     ];
@@ -112,6 +119,7 @@ impl Menu {
             Self::Surface => "Surface",
             Self::View => "View",
             Self::Display => "Display",
+            Self::Tessellation => "Tessellation",
             Self::Inspect => "Inspect",
             Self::Help => "Help",
         }
@@ -167,7 +175,13 @@ impl Command {
 
 /// Every command, menu by menu in menu order.
 pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
-    let tables = [file_table::ROWS, &edit_table::ROWS, view_table::ROWS, display_table::ROWS];
+    let tables = [
+        file_table::ROWS,
+        &edit_table::ROWS,
+        view_table::ROWS,
+        display_table::ROWS,
+        tessellation_table::ROWS,
+    ];
     let mut all = tables.concat();
     // Stable: within its menu each row stays where its table has it.
     all.sort_by_key(|c| Menu::ALL.iter().position(|m| *m == c.menu));

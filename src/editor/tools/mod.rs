@@ -13,6 +13,7 @@ mod keyboard;
 mod mouse;
 mod search;
 mod situation;
+mod tessellation_table;
 mod view_table;
 
 use bevy::prelude::*;

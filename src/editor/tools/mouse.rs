@@ -10,6 +10,7 @@ pub const MOUSE_HELP: &[(&str, &str)] = &[
     ("Shift + drag", "Pan (with middle, right or Alt + left)"),
     ("Wheel", "Zoom to the pointer"),
     ("Cube", "Turn to the view of the face, edge or corner clicked"),
+    ("Drag the divider", "Move the wipe between exact surfaces and triangles"),
     ("Drag a handle", "Move a control point, curve or loop, in the UV editor or on the surface"),
     ("Shift / Ctrl while dragging", "Keep to 45° / turn snapping round"),
     ("X, Y, Z while dragging", "Keep a surface point to that axis"),

@@ -8,6 +8,8 @@ use crate::editor::files::Loading;
 use crate::editor::inspection::{Chosen, Findings, can_close};
 use crate::editor::object::{FaceChange, Scene, Shown};
 use crate::editor::selection::Selection;
+use crate::editor::settings::Settings;
+use crate::editor::tessellation::Tessellation;
 
 /// What is open, selected and going on.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -28,6 +30,10 @@ pub struct Situation {
     pub inspection: bool,
     /// An edge with a gap between two sides is chosen.
     pub gap: bool,
+    /// Triangles of a tessellation are shown.
+    pub triangles: bool,
+    /// There is a tessellation of the model as it is.
+    pub mesh: bool,
     /// There is something that no file holds.
     pub unsaved: bool,
     /// There is a face whose trims can be edited.
@@ -55,6 +61,8 @@ impl Situation {
         loading: true,
         inspection: true,
         gap: true,
+        triangles: true,
+        mesh: true,
         unsaved: true,
         face: true,
         loops: 1,
@@ -77,6 +85,7 @@ pub(super) fn observe(
     loading: Res<Loading>,
     findings: Res<Findings>,
     chosen: Res<Chosen>,
+    (tessellation, settings): (Res<Tessellation>, Res<Settings>),
     editing: Res<Editing>,
     active: Res<ActiveFace>,
     elements: Res<ElementSelection>,
@@ -104,6 +113,8 @@ pub(super) fn observe(
         loading: loading.is_active(),
         inspection: findings.inspection().is_some(),
         gap: chosen.edge.and_then(|key| findings.edge(&key)).is_some_and(can_close),
+        triangles: settings.tessellation.replaces_surfaces(),
+        mesh: tessellation.current().is_some(),
         unsaved: editing.is_unsaved(),
         face: face.is_some(),
         loops: elements.map_or(0, |e| e.loops().len()),

@@ -52,7 +52,7 @@ impl Plugin for UvPlugin {
             .init_resource::<UvDrawing>()
             .init_resource::<show::Outbox>()
             .add_systems(Last, show::send)
-            .add_systems(Update, input::follow.in_set(EditorSystems::Input).in_set(super::NavigationInput))
+            .add_systems(Update, input::follow.in_set(super::NavigationInput))
             .add_systems(Update, bring_up_to_date.in_set(EditorSystems::Present).after(ObserveActiveFace));
     }
 }

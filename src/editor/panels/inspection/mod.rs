@@ -100,7 +100,7 @@ pub(super) fn overlay(root: &Ui, rect: Rect, reads: &Reads, viewport: &Viewport,
     measure::show(&painter, reads, viewport, state);
 }
 
-/// What of the viewport the legend leaves to notices.
+/// What of the viewport the legend leaves to others.
 pub(super) fn beside_legend(rect: Rect, reads: &Reads, state: &InspectionState) -> Rect {
     let shown = reads.settings.inspection && state.choices.colours && state.findings.inspection().is_some();
     let height = if shown { legend::HEIGHT } else { 0.0 };

@@ -1,0 +1,166 @@
+//! The mesh that is shown as a file: glTF, STL, OBJ or PLY, written on a thread.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, mpsc};
+
+use bevy::prelude::*;
+
+use super::made::Made;
+use super::{Tessellation, TessellationRequest};
+use crate::editor::document::DocumentFile;
+use crate::editor::files::{FileDialogs, Purpose};
+use crate::editor::object::{AuthoredFace, FacePlace, Model};
+use crate::editor::panels::Notices;
+use crate::editor::redraw::Waker;
+use crate::editor::tools::{Action, CommandRequest};
+use crate::exchange::mesh::{self, Group, PLAIN};
+use crate::meshing::orientations;
+use crate::scene::file::replace::replace;
+
+/// A format that can be written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum MeshFormat {
+    Glb,
+    Stl,
+    Obj,
+    Ply,
+}
+
+impl MeshFormat {
+    /// Names and endings, the first the usual one.
+    pub const ALL: [(Self, &'static str, &'static str); 4] = [
+        (Self::Glb, "glTF binary", "glb"),
+        (Self::Stl, "STL", "stl"),
+        (Self::Obj, "Wavefront OBJ", "obj"),
+        (Self::Ply, "PLY", "ply"),
+    ];
+
+    /// The format that the ending of a name asks for.
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?.to_lowercase();
+        Self::ALL.iter().find(|(_, _, own)| *own == ending).map(|(format, ..)| *format)
+    }
+}
+
+/// The file being written.
+#[derive(Resource, Default)]
+pub(super) struct Exporting(Option<Mutex<mpsc::Receiver<Result<String, String>>>>);
+
+/// What a file says of a face beside its triangles.
+struct Label {
+    name: String,
+    part: String,
+    colour: [f32; 3],
+    reversed: bool,
+}
+
+/// Asks for a name.
+pub(super) fn command_requests(
+    mut requests: MessageReader<CommandRequest>,
+    mut dialogs: ResMut<FileDialogs>,
+    file: Res<DocumentFile>,
+) {
+    if requests.read().any(|CommandRequest(action)| *action == Action::ExportMesh) {
+        dialogs.open(Purpose::Mesh, file.path.as_deref());
+    }
+}
+
+/// Starts the thread, and says how it went.
+pub(super) fn serve(
+    mut requests: MessageReader<TessellationRequest>,
+    mut exporting: ResMut<Exporting>,
+    mut notices: ResMut<Notices>,
+    state: Res<Tessellation>,
+    faces: Query<(&AuthoredFace, &FacePlace)>,
+    models: Query<&Model>,
+    waker: Res<Waker>,
+) {
+    if let Some(receiver) = &exporting.0 {
+        let result = receiver.lock().unwrap_or_else(|e| e.into_inner()).try_recv();
+        let done = !matches!(result, Err(mpsc::TryRecvError::Empty));
+        match result {
+            Ok(Ok(text)) => notices.info(text),
+            Ok(Err(text)) => notices.error(text),
+            Err(mpsc::TryRecvError::Empty) => {}
+            Err(mpsc::TryRecvError::Disconnected) => notices.error("the mesh was not written".into()),
+        }
+        if done {
+            exporting.0 = None;
+        }
+    }
+    for request in requests.read() {
+        let TessellationRequest::Export(path) = request else { continue };
+        let Some(format) = MeshFormat::of(path) else {
+            notices.error(format!("{}: the name must end in .glb, .stl, .obj or .ply", path.display()));
+            continue;
+        };
+        let Some(made) = state.current().cloned() else {
+            notices.error("There is no mesh yet: wait until it is made".into());
+            continue;
+        };
+        if exporting.0.is_some() {
+            notices.info("Still writing the last mesh".into());
+            continue;
+        }
+        let label = |face: &Entity| {
+            let Ok((authored, place)) = faces.get(*face) else {
+                return Label { name: "face".into(), part: String::new(), colour: PLAIN, reversed: false };
+            };
+            let own = &authored.attributes;
+            let part = models.get(place.model).ok().and_then(|m| m.parts.get(own.part?));
+            Label {
+                name: own.name.clone().unwrap_or_else(|| format!("face {}", place.number)),
+                part: part.map_or(String::new(), |p| p.name.clone()),
+                colour: own.colour.unwrap_or(PLAIN),
+                reversed: own.reversed,
+            }
+        };
+        let labels: Vec<Label> = made.faces().iter().map(label).collect();
+        let (sender, receiver) = mpsc::channel();
+        let (to, waker) = (path.clone(), waker.clone());
+        let spawned = std::thread::Builder::new().name("hairline-export".into()).spawn(move || {
+            let work = std::panic::AssertUnwindSafe(|| write(&to, format, &made, &labels));
+            let result = std::panic::catch_unwind(work)
+                .unwrap_or_else(|_| Err(format!("{}: internal error while writing", to.display())));
+            // The receiver is gone only when the program ends.
+            let _ = sender.send(result);
+            waker.wake();
+        });
+        match spawned {
+            Ok(_) => exporting.0 = Some(Mutex::new(receiver)),
+            Err(error) => notices.error(format!("not written: cannot start a thread: {error}")),
+        }
+    }
+}
+
+fn write(path: &Path, format: MeshFormat, made: &Arc<Made>, labels: &[Label]) -> Result<String, String> {
+    let senses: Vec<bool> = labels.iter().map(|l| l.reversed).collect();
+    let turned = orientations(&made.mesh, &senses);
+    let groups: Vec<Group> = made
+        .mesh
+        .faces
+        .iter()
+        .zip(labels.iter().zip(turned))
+        .filter_map(|(mesh, (label, reversed))| {
+            let mesh = mesh.as_ref().ok()?;
+            Some(Group { name: &label.name, part: &label.part, colour: label.colour, mesh, reversed })
+        })
+        .collect();
+    let name = path.file_stem().map_or("mesh".into(), |s| s.to_string_lossy());
+    let put = |path: &PathBuf, bytes: &[u8]| {
+        replace(path, bytes).map_err(|error| format!("{} was not written: {error}", path.display()))
+    };
+    let bytes = match format {
+        MeshFormat::Glb => mesh::glb(&groups, &name, 1e-3 * made.unit_mm),
+        MeshFormat::Stl => mesh::stl(&groups, &name),
+        MeshFormat::Ply => mesh::ply(&groups),
+        MeshFormat::Obj => {
+            let library = path.with_extension("mtl");
+            put(&library, &mesh::materials(&groups))?;
+            mesh::obj(&groups, library.file_name().map(|n| n.to_string_lossy()).as_deref())
+        }
+    };
+    put(&path.to_owned(), &bytes)?;
+    Ok(format!("{} triangles written to {}", made.figures.triangles, path.display()))
+}
