@@ -3,6 +3,8 @@
 //! A tree over those of the beginning, and a short list of those that came later; when the list has grown long
 //! the tree is built anew.
 
+use std::sync::Arc;
+
 use super::lifted::LiftedCurve;
 use crate::kernel::query::BoundsTree;
 use crate::kernel::view::Bounds;
@@ -19,7 +21,7 @@ pub struct CurveIndex {
 
 impl CurveIndex {
     /// Indexes all of `curves`.
-    pub fn new(curves: &[Option<Box<LiftedCurve>>]) -> Self {
+    pub fn new(curves: &[Option<Arc<LiftedCurve>>]) -> Self {
         let bounds: Vec<Bounds> =
             curves.iter().map(|c| c.as_ref().map_or(Bounds::EMPTY, |c| *c.bounds())).collect();
         Self { tree: BoundsTree::new(&bounds), later: Vec::new() }
@@ -27,7 +29,7 @@ impl CurveIndex {
 
     /// Adds number `id` of `curves`. Whether the tree was built anew: then no number without a curve is known
     /// to it.
-    pub fn insert(&mut self, id: u32, curves: &[Option<Box<LiftedCurve>>]) -> bool {
+    pub fn insert(&mut self, id: u32, curves: &[Option<Arc<LiftedCurve>>]) -> bool {
         self.later.push(id);
         let rebuild = self.later.len() > MOST_LATER;
         if rebuild {
@@ -41,7 +43,7 @@ impl CurveIndex {
         &self,
         around: &Bounds,
         distance: f64,
-        curves: &[Option<Box<LiftedCurve>>],
+        curves: &[Option<Arc<LiftedCurve>>],
         mut visit: impl FnMut(u32),
     ) {
         let meets = |b: &Bounds| {

@@ -5,6 +5,7 @@
 //! itself, so that after a change only the clusters that the face's curves were in, or are in now, are touched.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -24,7 +25,8 @@ use crate::scene::records::FaceRecord;
 #[derive(Debug, Clone)]
 pub struct Inspection {
     scale: Scale,
-    curves: Vec<Option<Box<LiftedCurve>>>,
+    /// Shared by copies, so that one can be looked at while the other is kept up to date.
+    curves: Vec<Option<Arc<LiftedCurve>>>,
     /// Numbers without a curve that nothing refers to.
     free: Vec<u32>,
     /// Numbers given up since the index was built.
@@ -48,6 +50,11 @@ impl Inspection {
 
     /// Inspects `faces`, in a unit that is `millimetres` long.
     pub fn in_unit(faces: &[FaceRecord], millimetres: f64) -> Self {
+        Self::with_scale(faces, |size| Scale::new(size, millimetres))
+    }
+
+    /// Inspects `faces`; `scale` gives the distances by which neighbours are found, from the size of them all.
+    pub fn with_scale(faces: &[FaceRecord], scale: impl FnOnce(f64) -> Scale) -> Self {
         let lifted: Vec<Vec<LiftedCurve>> =
             faces.par_iter().enumerate().map(|(k, face)| lift(k, face)).collect();
         let all = lifted.iter().flatten().fold(Bounds::EMPTY, |b, c| b.union(*c.bounds()));
@@ -55,12 +62,12 @@ impl Inspection {
         let mut curves = Vec::new();
         for face in lifted {
             let first = curves.len() as u32;
-            curves.extend(face.into_iter().map(|c| Some(Box::new(c))));
+            curves.extend(face.into_iter().map(|c| Some(Arc::new(c))));
             of_face.push((first..curves.len() as u32).collect());
         }
         let count = curves.len();
         let mut inspection = Self {
-            scale: Scale::new(all.diagonal(), millimetres),
+            scale: scale(all.diagonal()),
             index: CurveIndex::new(&curves),
             curves,
             free: Vec::new(),
@@ -191,7 +198,7 @@ impl Inspection {
                 self.curves.len() as u32 - 1
             }
         };
-        self.curves[id as usize] = Some(Box::new(curve));
+        self.curves[id as usize] = Some(Arc::new(curve));
         if self.index.insert(id, &self.curves) {
             self.free.append(&mut self.given_up);
         }

@@ -63,6 +63,8 @@ pub struct LiftedCurve {
     pieces: Vec<(BezierCurve2, (f64, f64))>,
     nodes: Vec<Node>,
     bounds: Bounds,
+    /// Four times what it bends away from a chord between two nodes.
+    bend: f64,
 }
 
 impl LiftedCurve {
@@ -82,12 +84,13 @@ impl LiftedCurve {
             pieces: curve.to_bezier(),
             nodes: Vec::new(),
             bounds: Bounds::EMPTY,
+            bend: 0.0,
         };
         if lifted.pieces.is_empty() {
             return None;
         }
         lifted.nodes = lifted.table();
-        lifted.bounds = lifted.bounding_box();
+        (lifted.bounds, lifted.bend) = lifted.bounding_box();
         let finite = lifted.nodes.iter().all(|n| n.point.is_finite() && n.length.is_finite());
         finite.then_some(lifted)
     }
@@ -105,6 +108,23 @@ impl LiftedCurve {
     /// A box that holds it.
     pub fn bounds(&self) -> &Bounds {
         &self.bounds
+    }
+
+    /// The point at `t`, where the table has it.
+    pub fn in_table(&self, t: f64) -> Option<DVec3> {
+        self.nodes.binary_search_by(|n| n.t.total_cmp(&t)).ok().map(|k| self.nodes[k].point)
+    }
+
+    /// Whether all of it is further than `distance` from `p`, as its table tells without a look at the surface.
+    pub fn is_beyond(&self, p: DVec3, distance: f64) -> bool {
+        let limit = distance + self.bend;
+        // Rounding on the way here must not decide.
+        let limit = limit * limit * (1.0 + 1e-9);
+        self.nodes.windows(2).all(|w| {
+            let (chord, from) = (w[1].point - w[0].point, p - w[0].point);
+            let along = from.dot(chord) / chord.length_squared().max(f64::MIN_POSITIVE);
+            (from - chord * along.clamp(0.0, 1.0)).length_squared() > limit
+        })
     }
 
     /// Arc length.
@@ -265,15 +285,15 @@ impl LiftedCurve {
         }
     }
 
-    /// The box of the nodes, grown by twice what the curve bends away between three of them.
-    fn bounding_box(&self) -> Bounds {
+    /// The box of the nodes, grown by what the curve bends away between three of them, and that.
+    fn bounding_box(&self) -> (Bounds, f64) {
         let mut bounds = Bounds::of(self.nodes.iter().map(|n| n.point));
         let bend = |w: &[Node]| (w[1].point - 0.5 * (w[0].point + w[2].point)).length();
         let most = self.nodes.windows(3).map(bend).fold(0.0, f64::max);
         let margin = DVec3::splat(most);
         bounds.min -= margin;
         bounds.max += margin;
-        bounds
+        (bounds, most)
     }
 }
 

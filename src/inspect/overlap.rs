@@ -41,6 +41,10 @@ pub fn overlaps(a: &LiftedCurve, b: &LiftedCurve, ids: [u32; 2], scale: &Scale) 
     let reach = if bodies_differ || a.address.face == b.address.face { join } else { reach };
     let mut stops = vec![a.domain().0, a.domain().1];
     for end in b.ends() {
+        // Many curves that only meet in an end, as the blades of a fan do, are told apart without a look at the surfaces.
+        if a.ends().contains(&end) || a.is_beyond(end, reach) {
+            continue;
+        }
         let foot = nearest(a, end, a.domain());
         if foot.distance <= reach {
             stops.push(foot.at.t);
@@ -73,6 +77,9 @@ fn stretch(
     let mut middle: Option<(Nearest, f64)> = None;
     for part in LOOKS {
         let t = range.0 + (range.1 - range.0) * part;
+        if a.in_table(t).is_some_and(|point| b.is_beyond(point, limit)) {
+            return None;
+        }
         let here = a.at(t);
         let foot = nearest(b, here.point, b.domain());
         let cosine = here.tangent.dot(foot.at.tangent) / (here.tangent.length() * foot.at.tangent.length());

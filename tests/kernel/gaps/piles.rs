@@ -39,6 +39,26 @@ fn pages_of_a_book_share_one_edge() {
 }
 
 #[test]
+fn blades_of_a_fan_share_their_hub_and_nothing_else() {
+    // All of them meet in both ends of the hub, too: 180,000 pairs of curves that are told apart.
+    const BLADES: usize = 300;
+    let blade = |k: usize| {
+        let turn = DVec2::from_angle(std::f64::consts::TAU * k as f64 / BLADES as f64);
+        let mut blade = face(plane(10.0, 0.0), vec![]);
+        blade.surface = blade.surface.map_points(|p| DVec3::new(p.x * turn.x, p.y, p.x * turn.y));
+        blade
+    };
+    let blades: Vec<FaceRecord> = (0..BLADES).map(blade).collect();
+    let inspection = Inspection::of(&blades);
+    let hub = of_kind(&inspection, EdgeKind::NonManifold);
+    assert_eq!((hub.len(), hub[0].uses.len()), (1, BLADES));
+    assert!(hub[0].gap.is_some_and(|g| g.maximum < 1e-12));
+    let naked: Vec<f64> = of_kind(&inspection, EdgeKind::Naked).iter().map(|e| e.length()).collect();
+    assert_eq!(naked.len(), 3 * BLADES);
+    assert!(naked.iter().all(|length| (length - 10.0).abs() < 1e-9));
+}
+
+#[test]
 fn a_heap_of_equal_faces_takes_no_quadratic_time() {
     // Pairs of 10,000 would be 50 million; this test would not end in reasonable time.
     let faces = vec![face(plane(10.0, 0.0), vec![]); 10_000];
