@@ -122,6 +122,11 @@ fn closing_is_one_step_whose_figure_is_live() {
         command(&mut app, Action::Undo);
         assert_eq!(records(&mut app), before);
         assert_eq!(app.world().resource::<Findings>().statistics(), &statistics);
+        assert_eq!(
+            app.world().resource::<MendOutcome>().last,
+            None,
+            "nothing is told of what was taken back"
+        );
     }
 }
 

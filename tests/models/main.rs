@@ -11,6 +11,7 @@ mod fixtures;
 mod iges_truth;
 mod import;
 mod json_schema;
+mod mend;
 mod mutations;
 mod pin_holes;
 mod points;

@@ -12,9 +12,11 @@ use crate::editor::editing::{EditRequest, OpenDocument};
 use crate::editor::object::FacePlace;
 use crate::editor::panels::Notices;
 use crate::editor::tools::{Action, CommandRequest};
+use crate::inspect::mend::harm::harm_of;
 use crate::inspect::mend::{MendError, MendOptions, Mended, close};
 use crate::inspect::{Edge, EdgeKey, Length};
-use crate::scene::records::FaceRecord;
+use crate::scene::document::SceneRecord;
+use crate::scene::records::{FaceRecord, ModelRecord};
 use crate::scene::{Change, Document, Edit, FaceId};
 
 /// Tries to close a gap as far as the surfaces allow.
@@ -44,8 +46,10 @@ pub struct CloseGap(pub EdgeKey);
 /// What became of the gap closed last.
 #[derive(Resource, Debug, Clone, Default, PartialEq)]
 pub struct MendOutcome {
-    /// The edge, and what to say about it; until its faces change again.
+    /// The edge, and what to say about it; until its gap changes again.
     pub last: Option<(EdgeKey, String)>,
+    /// Its gap when that was said.
+    gap: Option<f64>,
     pending: Option<Pending>,
 }
 
@@ -109,6 +113,7 @@ pub(super) fn serve(
             };
             let text = words(&error, findings.unit(), choices.side.map(number));
             outcome.last = Some((key, text.clone()));
+            outcome.gap = edge.gap.map(|g| g.maximum);
             notices.error(text);
         }
     }
@@ -139,7 +144,8 @@ fn mend(
     let mut best: Option<Mended> = None;
     let mut first_error = None;
     for side in sides {
-        match as_far_as_possible(&records, &local, side, wanted) {
+        let tried = as_far_as_possible(&records, &local, side, wanted);
+        match tried.and_then(|mended| harmless(mended, &records, &numbers, findings, document)) {
             Ok(mended) if best.as_ref().is_none_or(|b| mended.after < b.after) => best = Some(mended),
             Ok(_) => {}
             Err(error) => first_error = first_error.or(Some(error)),
@@ -182,6 +188,27 @@ fn as_far_as_possible(
     Err(first_error.unwrap_or(MendError::Partial))
 }
 
+/// `mended`, unless it would spoil other edges: those of faces that were not lent have to be looked at for that.
+fn harmless(
+    mended: Mended,
+    lent: &[FaceRecord],
+    numbers: &[usize],
+    findings: &Findings,
+    document: &OpenDocument,
+) -> Result<Mended, MendError> {
+    let stale = MendError::Stale { face: mended.face + 1 };
+    let inspection = findings.inspection().ok_or(stale.clone())?;
+    let model = ModelRecord { faces: lent.to_vec(), ..ModelRecord::default() };
+    let mut scene = SceneRecord { models: vec![model], ..SceneRecord::default() };
+    mended.edit.apply(&mut scene).map_err(|_| stale.clone())?;
+    let face = *numbers.get(mended.face).ok_or(stale)?;
+    let record = |number: usize| Some(document.face(document.id(findings.face(number)?)?)?.to_record());
+    match harm_of(inspection, face, &scene.models[0].faces[mended.face], &record) {
+        Some(harm) => Err(MendError::Harms { harm }),
+        None => Ok(mended),
+    }
+}
+
 /// The edit for faces of the scene instead of those lent.
 fn addressed(mut edit: Edit, ids: &[FaceId]) -> Edit {
     for change in &mut edit.changes {
@@ -202,9 +229,13 @@ pub(super) fn report(
     places: Query<&FacePlace>,
     mut notices: ResMut<Notices>,
 ) {
+    let gap = |key: &EdgeKey| findings.edge(key).and_then(|e| e.gap).map(|g| g.maximum);
+    // Taken back, or edited since.
+    if outcome.last.as_ref().is_some_and(|(key, _)| gap(key) != outcome.gap) {
+        outcome.last = None;
+    }
     let is_news = |p: &Pending| p.revision != findings.revision;
     let Some(pending) = outcome.pending.as_ref().filter(|p| is_news(p)) else { return };
-    let gap = |key: &EdgeKey| findings.edge(key).and_then(|e| e.gap).map(|g| g.maximum);
     let before = pending.before.iter().find(|(key, _)| *key == pending.edge).map(|b| b.1);
     let (Some(before), Some(after)) = (before, gap(&pending.edge)) else {
         outcome.pending = None;
@@ -243,7 +274,7 @@ pub(super) fn report(
     }
     let edge = pending.edge;
     notices.info(text.clone());
-    *outcome = MendOutcome { last: Some((edge, text)), pending: None };
+    *outcome = MendOutcome { last: Some((edge, text)), gap: Some(after), pending: None };
 }
 
 /// Why it was not closed. `side`: number of the face that was to move.

@@ -1,10 +1,12 @@
 //! Closing all gaps of a model that trims can close, worst first.
 //!
 //! After each edit the face is inspected again, and the edit is taken back when it has opened another of the face's
-//! edges beyond the tolerance and beyond what it was: closing one gap must not make another.
+//! edges beyond the tolerance and beyond what it was, or left a stretch naked or non-manifold: closing one gap must not
+//! make another. Then the other side is tried.
 
 use std::collections::BTreeMap;
 
+use super::harm::{Harm, Surroundings};
 use super::{MendError, MendOptions, Mended, close};
 use crate::inspect::{EdgeKey, Inspection};
 use crate::scene::document::SceneRecord;
@@ -40,15 +42,27 @@ pub fn close_all(scene: &mut SceneRecord, model: usize, tolerance: f64) -> Resul
             if gap <= tolerance {
                 continue;
             }
-            let faces = &scene.models[model].faces;
-            match close(faces, &edge, &MendOptions { tolerance, side: None, model }) {
-                Ok(mended) if try_out(scene, &mut inspection, &mended, model, tolerance)? => {
-                    report.closed.push((key, mended.before, mended.after));
+            let mut reason = None;
+            for side in 0..2 {
+                let faces = &scene.models[model].faces;
+                let error = match close(faces, &edge, &MendOptions { tolerance, side: Some(side), model }) {
+                    Ok(mended) => match try_out(scene, &mut inspection, &mended, tolerance)? {
+                        None => {
+                            report.closed.push((key, mended.before, mended.after));
+                            reason = None;
+                            break;
+                        }
+                        Some(harm) => harm,
+                    },
+                    Err(MendError::Closed { .. }) => break,
+                    Err(error) => error,
+                };
+                // That it could be closed, at a price, says more than why the other side cannot.
+                if reason.is_none() || matches!(error, MendError::Harms { .. }) {
+                    reason = Some(error);
                 }
-                Ok(_) => report.open.push((key, gap, "closing it opens another edge of the face".into())),
-                Err(MendError::Closed { .. }) => {}
-                Err(error) => report.open.push((key, gap, error.told(millimetres))),
             }
+            report.open.extend(reason.map(|error| (key, gap, error.told(millimetres))));
         }
         if report.closed.len() == before {
             break;
@@ -66,30 +80,27 @@ fn too_wide(inspection: &Inspection, tolerance: f64) -> Vec<EdgeKey> {
     found.into_iter().map(|(_, key)| key).collect()
 }
 
-/// Applies an edit and keeps it unless it makes another edge worse; whether it was kept.
+/// Applies an edit and keeps it unless it makes another edge worse; how it does.
 fn try_out(
     scene: &mut SceneRecord,
     inspection: &mut Inspection,
     mended: &Mended,
-    model: usize,
     tolerance: f64,
-) -> Result<bool, EditError> {
+) -> Result<Option<MendError>, EditError> {
     let gaps = |inspection: &Inspection| -> BTreeMap<EdgeKey, f64> {
         let of = |k: EdgeKey| inspection.edge(&k).and_then(|e| e.gap).map(|g| (k, g.maximum));
         inspection.edges_of(mended.face).into_iter().filter_map(of).collect()
     };
-    let before = gaps(inspection);
+    let (before, around) = (gaps(inspection), Surroundings::of(inspection, mended.face));
     mended.edit.apply(scene)?;
-    inspection.update(mended.face, &scene.models[model].faces[mended.face]);
+    inspection.update(mended.face, &scene.models[mended.model].faces[mended.face]);
     let after = gaps(inspection);
-    let same_edges = before.len() == after.len();
     let worse = after
         .iter()
         .any(|(key, gap)| *gap > tolerance && before.get(key).is_none_or(|old| *gap > old * (1.0 + 1e-6)));
-    if same_edges && !worse {
-        return Ok(true);
-    }
+    let harm = around.harm(inspection).or((worse || before.len() != after.len()).then_some(Harm::Opens));
+    let Some(harm) = harm else { return Ok(None) };
     mended.edit.inverse().apply(scene)?;
-    inspection.update(mended.face, &scene.models[model].faces[mended.face]);
-    Ok(false)
+    inspection.update(mended.face, &scene.models[mended.model].faces[mended.face]);
+    Ok(Some(MendError::Harms { harm }))
 }

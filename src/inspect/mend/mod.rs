@@ -8,6 +8,7 @@
 
 pub mod batch;
 mod goals;
+pub mod harm;
 mod refit;
 
 use super::edge::{Edge, EdgeUse};
@@ -19,6 +20,7 @@ use crate::kernel::nurbs::NurbsCurve2;
 use crate::scene::edit::{Change, Edit, FaceId};
 use crate::scene::records::{FaceRecord, LoopRecord, LoopRole};
 use goals::Goals;
+use harm::Harm;
 
 /// What to close, and how well.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +38,8 @@ pub struct MendOptions {
 pub struct Mended {
     /// The change, to be applied and undone as one.
     pub edit: Edit,
+    /// Position of its model in the scene.
+    pub model: usize,
     /// The face whose pcurve moves.
     pub face: usize,
     /// Position of the use that moves.
@@ -86,6 +90,12 @@ pub enum MendError {
         /// The gap.
         gap: f64,
     },
+    /// Other edges would be worse for it.
+    #[error("closing it {}", harm.told(&|x| x.to_string()))]
+    Harms {
+        /// What would happen.
+        harm: Harm,
+    },
     /// No curve of reasonable size comes close enough.
     #[error("the best curve found leaves a gap of {reached} (before: {gap})")]
     NotReached {
@@ -113,6 +123,7 @@ impl MendError {
             Self::NotReached { gap, .. } => {
                 format!("moving the curve does not make the gap of {} smaller", length(*gap))
             }
+            Self::Harms { harm } => format!("closing it {}", harm.told(&|x| length(x).to_string())),
             Self::Sides { .. } | Self::Stale { .. } | Self::Partial => self.to_string(),
         }
     }
@@ -209,6 +220,7 @@ fn move_side(
     let changed = changed.ok_or(MendError::NotReached { reached, gap: before })?;
     Ok(Mended {
         edit: edit(record(moving)?, &changed, moving, options.model),
+        model: options.model,
         face: moving.curve.face,
         side,
         before,
