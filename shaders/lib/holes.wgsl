@@ -55,13 +55,22 @@ fn hole_side(pixel: vec2i, step: vec2i, own: u32, z: f32) -> HoleSide {
     if (own != 0u && z - plane_z <= least) {
         return none;
     }
+    // A surface that bends away lies behind its own tangent planes, seen from either place.
+    if (own == there.x) {
+        let back = plane_depth(unpack_normal(raw_words(pixel).w), ray_point(hole_ray(pixel), z), hole_ray(at));
+        let own_limit = 30.0 * hole_width(z) * steps;
+        if (clamp(back, z - own_limit, z + own_limit) - z_there <= least) {
+            return none;
+        }
+    }
     return HoleSide(true, there.x, z_there, plane_z, steps);
 }
 
-fn hole_one_depth(a: HoleSide, b: HoleSide) -> bool {
+// `step`: by how many pixels one may lie above the other.
+fn hole_one_depth(a: HoleSide, b: HoleSide, step: i32) -> bool {
     let slope = abs(a.plane_z - a.z) + abs(b.plane_z - b.z);
     let slack = hole_width(a.z) * (2.0 + 2.0 * (a.steps + b.steps));
-    return abs(a.plane_z - b.plane_z) <= slack + 0.5 * slope;
+    return abs(a.plane_z - b.plane_z) - hole_width(a.z) * f32(step) <= slack + 0.5 * slope;
 }
 
 // Whether faces `a` and `b` (slots + 1) lie on both sides of a pixel and nearer.
@@ -75,8 +84,10 @@ fn is_hole(pixel: vec2i, own: u32, z: f32, a: u32, b: u32) -> bool {
             }
             for (var far = 1; far <= HOLE_REACH; far++) {
                 let second = hole_side(pixel, far * direction, own, z);
-                let pair = (first.face == a && second.face == b) || (first.face == b && second.face == a);
-                if (second.there && pair && hole_one_depth(first, second)) {
+                // Right beside it one face on both sides will do: a speck that was left when all around was filled.
+                let speck = near == 1 && far == 1 && (second.face == a || second.face == b);
+                let pair = speck || (first.face == a && second.face == b) || (first.face == b && second.face == a);
+                if (second.there && pair && hole_one_depth(first, second, 0)) {
                     return true;
                 }
             }
@@ -110,7 +121,7 @@ fn is_wide_hole(pixel: vec2i, own: u32, z: f32, a: u32, b: u32, direction: vec2f
         return false;
     }
     let second = hole_search(pixel, own, z, direction, most);
-    return hole_is_of(second, a, b) && hole_one_depth(first, second);
+    return hole_is_of(second, a, b) && hole_one_depth(first, second, most / 2);
 }
 
 fn in_picture(p: vec2f) -> bool {

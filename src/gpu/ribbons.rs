@@ -9,6 +9,7 @@ use super::renderer::Renderer;
 use super::targets::Targets;
 use crate::encoding::ribbon::SEGMENTS;
 use crate::encoding::{RibbonScene, RibbonSpan};
+use crate::reference::ribbon::ROUNDS;
 
 /// Corners of the strip of a span: a pair between segments, and one beyond each end.
 const CORNERS: u32 = 2 * (SEGMENTS + 3);
@@ -49,8 +50,8 @@ pub(super) struct RibbonPass {
     points: Mirror,
     curves: Mirror,
     spans: Spans,
-    /// The rays' picture with holes filled.
-    pub targets: Option<Targets>,
+    /// The rays' picture with holes filled, after the last round and the one before.
+    targets: Option<[Targets; 2]>,
 }
 
 impl RibbonPass {
@@ -108,24 +109,36 @@ impl RibbonPass {
         spans: &[RibbonSpan],
     ) {
         self.spans.write(device, queue, spans);
-        let targets = match self.targets.take() {
-            Some(targets) if targets.size == raw.size => targets,
-            _ => Targets::new(device, raw.size),
+        let mut targets = match self.targets.take() {
+            Some(targets) if targets[0].size == raw.size => targets,
+            _ => [Targets::new(device, raw.size), Targets::new(device, raw.size)],
         };
-        for (from, to) in [(&raw.visibility, &targets.visibility), (&raw.depth, &targets.depth)] {
-            encoder.copy_texture_to_texture(from.as_image_copy(), to.as_image_copy(), from.size());
-        }
-        let mut resources = self.resources(uniform, scene);
-        resources.push(wgpu::BindingResource::TextureView(&raw.visibility_view));
-        resources.push(wgpu::BindingResource::TextureView(&raw.depth_view));
-        let bind_group = group(device, "conceal", &self.conceal.layout, resources);
-        if self.spans.count > 0 {
-            let mut pass = visibility_pass(encoder, "conceal", &targets, false);
-            pass.set_pipeline(&self.conceal.pipeline);
-            pass.set_bind_group(0, &bind_group, &[slot]);
-            pass.draw(0..CORNERS, 0..self.spans.count);
+        for round in 0..ROUNDS {
+            let [to, before] = &targets;
+            let from = if round == 0 { raw } else { before };
+            for (from, to) in [(&from.visibility, &to.visibility), (&from.depth, &to.depth)] {
+                encoder.copy_texture_to_texture(from.as_image_copy(), to.as_image_copy(), from.size());
+            }
+            let mut resources = self.resources(uniform.clone(), scene);
+            resources.push(wgpu::BindingResource::TextureView(&from.visibility_view));
+            resources.push(wgpu::BindingResource::TextureView(&from.depth_view));
+            let bind_group = group(device, "conceal", &self.conceal.layout, resources);
+            if self.spans.count > 0 {
+                let mut pass = visibility_pass(encoder, "conceal", to, false);
+                pass.set_pipeline(&self.conceal.pipeline);
+                pass.set_bind_group(0, &bind_group, &[slot]);
+                pass.draw(0..CORNERS, 0..self.spans.count);
+            }
+            if round + 1 < ROUNDS {
+                targets.swap(0, 1);
+            }
         }
         self.targets = Some(targets);
+    }
+
+    /// The picture with holes filled.
+    fn filled(&self) -> Option<&Targets> {
+        self.targets.as_ref().map(|[filled, _]| filled)
     }
 }
 
@@ -180,7 +193,7 @@ impl Renderer {
 
     /// The textures that are shown.
     pub fn shown(&self) -> &Targets {
-        let filled = self.ribbons.as_ref().and_then(|pass| pass.targets.as_ref());
+        let filled = self.ribbons.as_ref().and_then(RibbonPass::filled);
         filled.filter(|_| self.concealed).unwrap_or(&self.targets)
     }
 }

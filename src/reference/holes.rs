@@ -68,6 +68,18 @@ struct Side {
 }
 
 impl Neighbourhood<'_> {
+    /// Whether surfaces lie nearer right beside a pixel, on both sides, each of face `a` or `b` (slots).
+    pub fn is_speck(&self, pixel: IVec2, [a, b]: [u32; 2]) -> bool {
+        let here = self.buffer.at(pixel.x, pixel.y);
+        let z = if here.words[0] == 0 { f32::INFINITY } else { z_of(self.view, &here) };
+        DIRECTIONS.into_iter().any(|direction| {
+            let side = |step: IVec2| {
+                self.side(pixel, step, &here, z).filter(|side| side.face == a || side.face == b)
+            };
+            matches!((side(-direction), side(direction)), (Some(a), Some(b)) if self.one_depth(&a, &b, 0))
+        })
+    }
+
     pub fn candidate(&self, x: i32, y: i32) -> Option<HoleCandidate> {
         let pixel = IVec2::new(x, y);
         let here = self.buffer.at(x, y);
@@ -77,7 +89,7 @@ impl Neighbourhood<'_> {
                 let Some(a) = self.side(pixel, -near * direction, &here, z) else { continue };
                 for far in 1..=REACH {
                     let Some(b) = self.side(pixel, far * direction, &here, z) else { continue };
-                    if self.one_depth(&a, &b) && (self.shares)(a.face, b.face) {
+                    if self.one_depth(&a, &b, 0) && (self.shares)(a.face, b.face) {
                         let faces = [a.face.min(b.face), a.face.max(b.face)];
                         return Some(HoleCandidate { pixel: [x as u32, y as u32], faces, z: a.z.min(b.z) });
                     }
@@ -106,7 +118,7 @@ impl Neighbourhood<'_> {
     pub fn wide_candidate(&self, pixel: IVec2, direction: Vec2, most: i32) -> bool {
         let find = |direction: Vec2| self.search(pixel, direction, most);
         matches!((find(-direction), find(direction)), (Some(a), Some(b))
-            if self.one_depth(&a, &b) && (self.shares)(a.face, b.face))
+            if self.one_depth(&a, &b, most / 2) && (self.shares)(a.face, b.face))
     }
 
     /// Where a side of the slit lies outside of the picture or behind another face than `a` and `b` (slots): whether the
@@ -164,6 +176,10 @@ impl Neighbourhood<'_> {
         if z - plane_z <= least {
             return None;
         }
+        // A surface that bends away lies behind its own tangent planes, seen from either place.
+        if own && self.plane_z(pixel, at, z, here.words[3]) - z_there <= least {
+            return None;
+        }
         Some(Side { face: there.words[0] - 1, z: z_there, plane_z, steps })
     }
 
@@ -177,8 +193,9 @@ impl Neighbourhood<'_> {
     }
 
     /// Whether two sides may be the two sides of one slit: at the pixel their planes are about as deep.
-    fn one_depth(&self, a: &Side, b: &Side) -> bool {
-        let apart = (a.plane_z - b.plane_z).abs();
+    /// `step`: by how many pixels one may lie above the other.
+    fn one_depth(&self, a: &Side, b: &Side, step: i32) -> bool {
+        let apart = (a.plane_z - b.plane_z).abs() - self.width(a.z) * step as f32;
         let slope = (a.plane_z - a.z).abs() + (b.plane_z - b.z).abs();
         let slack = self.width(a.z) * (2.0 + 2.0 * (a.steps + b.steps) as f32);
         apart <= slack + 0.5 * slope

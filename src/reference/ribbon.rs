@@ -106,15 +106,21 @@ pub fn conceal(
     view: &View,
 ) -> VisibilityBuffer {
     let mut result = raw.clone();
-    for span in spans {
-        let piece = &ribbons.piece_data()[span.piece as usize];
-        let flags = |slot: u32| scene.faces.data()[slot as usize].flags;
-        if flags(piece.face) & flags(piece.other) & FaceHeader::VISIBLE != 0 {
-            draw_span(ribbons, span, piece, raw, view, &mut result);
+    for _ in 0..ROUNDS {
+        let before = result.clone();
+        for span in spans {
+            let piece = &ribbons.piece_data()[span.piece as usize];
+            let flags = |slot: u32| scene.faces.data()[slot as usize].flags;
+            if flags(piece.face) & flags(piece.other) & FaceHeader::VISIBLE != 0 {
+                draw_span(ribbons, span, piece, &before, view, &mut result);
+            }
         }
     }
     result
 }
+
+/// Where several faces meet, a pixel may lie between two of which one is seen only once the other gap is filled.
+pub const ROUNDS: u32 = 2;
 
 /// A corner of a strip.
 struct Corner {
@@ -219,6 +225,7 @@ fn fill(
             let clear = if third { CLEAR * (off.x.abs() + off.y) * width } else { 0.0 };
             let sides = [piece.face, piece.other];
             let hole = look.candidate(pixel.x, pixel.y).is_some()
+                || look.is_speck(pixel, sides)
                 || (reach >= REACH
                     && z_here > z_line + clear
                     && (look.wide_candidate(pixel, across, 2 * reach)

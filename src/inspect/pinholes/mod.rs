@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use self::prove::prove;
+use self::prove::{Shown, prove};
 use self::screen::Screen;
 use self::walk::{Suspect, wide_holes};
 use super::{EdgeKey, Inspection};
@@ -129,7 +129,10 @@ pub fn pin_holes(scene: &HoleScene, buffer: &VisibilityBuffer, view: &View, came
     }
     let shown = |candidate: &HoleCandidate| {
         let here = buffer.at(candidate.pixel[0] as i32, candidate.pixel[1] as i32);
-        if here.words[0] == 0 { f64::INFINITY } else { f64::from(z_of(view, &here)) }
+        match here.words[0] {
+            0 => Shown { z: f64::INFINITY, face: None },
+            word => Shown { z: z_of(view, &here).into(), face: (scene.face_of_slot)(word - 1) },
+        }
     };
     let proved =
         |list: &Vec<Suspect>| list.iter().find_map(|s| prove(scene, &screen, s, shown(&s.candidate)));

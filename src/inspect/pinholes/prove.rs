@@ -65,8 +65,17 @@ fn approach(curve: &LiftedCurve, range: (f64, f64), ray: &Ray) -> Approach {
     at(0.5 * (low + high))
 }
 
-/// Proves a candidate, whose faces are positions in the model. `shown`: depth of what its pixel shows.
-pub(super) fn prove(scene: &HoleScene, screen: &Screen, suspect: &Suspect, shown: f64) -> Option<PinHole> {
+/// What a pixel shows.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shown {
+    /// Depth; infinite for the background.
+    pub(super) z: f64,
+    /// Position of the face in the model.
+    pub(super) face: Option<usize>,
+}
+
+/// Proves a candidate, whose faces are positions in the model.
+pub(super) fn prove(scene: &HoleScene, screen: &Screen, suspect: &Suspect, shown: Shown) -> Option<PinHole> {
     let candidate = &suspect.candidate;
     let ray = screen.ray(candidate.pixel);
     let [a, b] = candidate.faces.map(|f| f as usize);
@@ -102,8 +111,21 @@ pub(super) fn prove(scene: &HoleScene, screen: &Screen, suspect: &Suspect, shown
         depths.into_iter().map(|t| screen.depth(ray.origin + ray.direction * t)).reduce(f64::min)
     });
     let hit = hits.next().map(|z| hits.fold(z, f64::min));
-    if hit.is_some_and(|z| shown <= z + 8.0 * width + 1e-5 * z.abs()) {
+    if hit.is_some_and(|z| shown.z <= z + 8.0 * width + 1e-5 * z.abs()) {
         // The picture shows it.
+        return None;
+    }
+    // Something as near as the sides, such as one of them where it is rounded, or what conceals the hole.
+    let own = shown.face.is_some_and(|face| face == a || face == b);
+    // Beyond the end of the edge it is the face that closes the corner, which bends away.
+    let borders = |face: usize| [a, b].iter().any(|side| !scene.pairs.between(face, *side).is_empty());
+    let closing = suspect.beyond && shown.face.is_some_and(borders);
+    let behind = match (own, closing) {
+        (_, true) => gap + 4.0 * width,
+        (true, _) => 4.0 * width,
+        _ => width,
+    };
+    if shown.z <= screen.depth(first.point).max(screen.depth(second.point)) + behind {
         return None;
     }
     // On both sides of the ray, within a small part of a pixel; beyond the end of the edge the picture told.

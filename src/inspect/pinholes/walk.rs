@@ -19,6 +19,8 @@ const MOST_PX: f64 = 5e3;
 /// What lies beyond the end of an edge, and no farther behind it than this many times the distance from it, belongs to
 /// the faces that meet there.
 const CLEAR: f64 = 3.0;
+/// A surface beside an edge is taken to fall by no more pixels per pixel.
+const STEEPEST: f64 = 30.0;
 /// Halvings of an edge at most on the way to a pixel.
 const MOST_HALVINGS: u32 = 30;
 
@@ -105,6 +107,13 @@ impl Walk<'_> {
         let gap_px = self.gap / self.screen.width(self.screen.depth(points[0]));
         let rows = if outward == DVec2::ZERO { 0 } else { (3.0 * gap_px.min(MOST_PX)).ceil() as u32 };
         let faces = self.uses.map(|u| u.curve.face as u32);
+        // A strip that is open to one side is the outline of the part.
+        let along = (q - p).normalize_or_zero();
+        let beyond = gap_px.min(MOST_PX).ceil() as u32 + 3;
+        let [z_p, z_q] = points.map(|point| self.screen.depth(point));
+        if !(self.is_bounded(p, -along, z_p, beyond) && self.is_bounded(q, along, z_q, beyond)) {
+            return;
+        }
         for k in 0..=steps {
             let s = f64::from(k) / f64::from(steps);
             let z = self.screen.depth(points[0].lerp(points[1], s));
@@ -129,6 +138,16 @@ impl Walk<'_> {
                 found.truncate(first);
             }
         }
+    }
+
+    /// Whether the picture shows a surface about as deep as `z`, or goes on, up to `most` pixels from `from` along `direction`.
+    fn is_bounded(&self, from: DVec2, direction: DVec2, z: f64, most: u32) -> bool {
+        direction == DVec2::ZERO
+            || (1..=most).map(f64::from).any(|k| {
+                let at = from + direction * k;
+                let outside = at.min_element() < 0.0 || (at - self.screen.size).max_element() >= 0.0;
+                outside || !self.shows_behind(at, z, STEEPEST * (k + 1.0) + f64::from(most))
+            })
     }
 
     /// Whether a place of the picture shows something behind the edge, by a pixel and by more than `clear` pixels.
