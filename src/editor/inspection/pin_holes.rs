@@ -29,6 +29,8 @@ pub struct PinHoles {
     pub size: UVec2,
     /// The view it was of.
     pub camera: Option<ViewPoint>,
+    /// Whether faces changed since.
+    pub outdated: bool,
     /// Whether the marks are lit, when they blink.
     pub lit: bool,
     /// The holes by edge, most pixels first.
@@ -62,11 +64,12 @@ impl PinHoles {
         self.groups = groups.into_iter().map(group).collect();
         self.groups.sort_by_key(|group| std::cmp::Reverse(group.pixels));
         (self.holes, self.size, self.camera) = (holes, size, Some(camera));
+        self.outdated = false;
     }
 
-    /// The holes, if they are of this view.
+    /// The holes, if they are of this view of the faces as they are.
     pub fn of(&self, camera: &ViewPoint) -> Option<&[PinHole]> {
-        (self.camera.as_ref() == Some(camera)).then_some(self.holes.as_slice())
+        (self.camera.as_ref() == Some(camera) && !self.outdated).then_some(self.holes.as_slice())
     }
 
     /// How many are of a class.

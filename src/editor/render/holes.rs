@@ -191,6 +191,25 @@ pub(super) struct Proofs {
     /// Picture and revision of the edges that were last looked at.
     begun: Option<(Arc<Picture>, u64)>,
     result: Option<Mutex<mpsc::Receiver<Proved>>>,
+    /// Whether faces changed since they were begun.
+    outdated: bool,
+    /// The latest picture when faces changed last: the next one is of the faces as they are.
+    before_edit: Option<Arc<Picture>>,
+    /// Threads of their own: on those that faces are derived on, an edit would wait for them.
+    pool: Option<rayon::ThreadPool>,
+}
+
+impl Proofs {
+    fn pool(&mut self) -> Option<&rayon::ThreadPool> {
+        if self.pool.is_none() {
+            let cores = std::thread::available_parallelism().map_or(1, usize::from);
+            let builder = rayon::ThreadPoolBuilder::new().num_threads((cores - 1).max(1));
+            // A defect in proving costs the marks, not the program.
+            let builder = builder.thread_name(|_| "hairline-holes".into()).panic_handler(|_| ());
+            self.pool = builder.build().ok();
+        }
+        self.pool.as_ref()
+    }
 }
 
 /// In the main world: takes the latest picture and has its holes proved, one picture at a time.
@@ -198,7 +217,7 @@ pub(super) fn prove(
     pictures: Res<HolePictures>,
     findings: Res<Findings>,
     settings: Res<Settings>,
-    faces: Query<&DerivedFace>,
+    (faces, changed): (Query<&DerivedFace>, Query<(), Changed<DerivedFace>>),
     waker: Res<Waker>,
     (mut latest, mut found): (ResMut<LatestPicture>, ResMut<PinHoles>),
     mut proofs: Local<Proofs>,
@@ -206,11 +225,18 @@ pub(super) fn prove(
     if let Some(picture) = pictures.0.lock().unwrap_or_else(|e| e.into_inner()).take() {
         latest.0 = Some(Arc::new(picture));
     }
+    if !changed.is_empty() {
+        (found.outdated, proofs.outdated) = (true, true);
+        proofs.before_edit = latest.0.clone();
+    }
     let arrived = proofs.result.as_ref().map(|r| r.lock().unwrap_or_else(|e| e.into_inner()).try_recv());
     match arrived {
         Some(Err(mpsc::TryRecvError::Empty)) => return,
         Some(Ok((holes, picture))) => {
-            found.set(holes, UVec2::new(picture.buffer.width, picture.buffer.height), picture.camera);
+            // While the view moves, or faces are edited, those of a moment ago are better than none.
+            if !proofs.outdated || settings.holes_moving {
+                found.set(holes, UVec2::new(picture.buffer.width, picture.buffer.height), picture.camera);
+            }
             proofs.result = None;
         }
         Some(Err(mpsc::TryRecvError::Disconnected)) | None => proofs.result = None,
@@ -219,17 +245,21 @@ pub(super) fn prove(
     // Again when edges were measured meanwhile.
     let known =
         |(p, revision): &(Arc<Picture>, u64)| Arc::ptr_eq(p, picture) && *revision == findings.revision;
-    if !are_marked(&settings) || proofs.begun.as_ref().is_some_and(known) {
+    let before_edit = proofs.before_edit.as_ref().is_some_and(|p| Arc::ptr_eq(p, picture));
+    if !are_marked(&settings) || before_edit || proofs.begun.as_ref().is_some_and(known) {
         return;
     }
     proofs.begun = Some((Arc::clone(picture), findings.revision));
+    proofs.outdated = false;
     let held: Vec<Option<Arc<Face>>> =
         (0..inspection.face_count()).map(|k| faces.get(findings.face(k)?).ok()?.0.face.clone()).collect();
     let numbers: Vec<Option<usize>> = picture.faces.iter().map(|e| findings.number((*e)?)).collect();
     let (sender, receiver) = mpsc::channel();
     proofs.result = Some(Mutex::new(receiver));
     let (picture, waker) = (Arc::clone(picture), waker.clone());
-    rayon::spawn(move || {
+    // Without threads there are no marks.
+    let Some(pool) = proofs.pool() else { return };
+    pool.spawn(move || {
         let face = |k: usize| held.get(k)?.as_deref();
         let slot = |k: u32| numbers.get(k as usize).copied().flatten();
         let pairs = EdgePairs::of(&inspection);

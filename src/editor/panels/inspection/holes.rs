@@ -16,6 +16,8 @@ const RADIUS: f32 = 5.0;
 const LONGEST: f32 = 8.0;
 /// Side of a square over a hole, points.
 const DILATED: f32 = 5.0;
+/// Between the legend and the count, points.
+const BESIDE: f32 = 8.0;
 /// Marks drawn at most: more would cover the picture.
 const MOST: usize = 20_000;
 
@@ -41,8 +43,14 @@ impl Run {
     }
 }
 
-/// Draws them.
-pub(super) fn show(painter: &Painter, rect: Rect, reads: &Reads, viewport: &Viewport, found: &PinHoles) {
+/// Draws them, and how many there are: beside `legend`, or above it.
+pub(super) fn show(
+    painter: &Painter,
+    (rect, legend): (Rect, Option<Rect>),
+    reads: &Reads,
+    viewport: &Viewport,
+    found: &PinHoles,
+) {
     let moving = reads.settings.holes_moving;
     let known = found.of(&reads.camera.now).is_some() || (moving && found.camera.is_some());
     if !known {
@@ -74,8 +82,14 @@ pub(super) fn show(painter: &Painter, rect: Rect, reads: &Reads, viewport: &View
     }
     let font = FontId::proportional(size::BODY);
     let galley = painter.layout_no_wrap(summary(found), font, reads.palette.strong);
-    let label = Align2::CENTER_BOTTOM
-        .anchor_size(rect.center_bottom() - vec2(0.0, 10.0), galley.size() + vec2(16.0, 8.0));
+    let size = galley.size() + vec2(16.0, 8.0);
+    let mut label = Align2::CENTER_BOTTOM.anchor_size(rect.center_bottom() - vec2(0.0, 10.0), size);
+    if let Some(legend) = legend.filter(|l| l.expand(BESIDE).intersects(label)) {
+        label = match legend.max.x + BESIDE + size.x < rect.max.x {
+            true => label.translate(vec2(legend.max.x + BESIDE - label.min.x, 0.0)),
+            false => label.translate(vec2(0.0, legend.min.y - BESIDE - label.max.y)),
+        };
+    }
     painter.rect_filled(label, 4, reads.palette.raised.gamma_multiply(0.9));
     painter.galley(label.center() - galley.size() / 2.0, galley, reads.palette.strong);
 }

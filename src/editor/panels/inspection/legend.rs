@@ -8,12 +8,15 @@ use crate::editor::theme::{Palette, size};
 /// Height of it with the margin below.
 pub(super) const HEIGHT: f32 = 66.0;
 
+/// Where it is, if there is room.
+pub(super) fn place(viewport: Rect) -> Option<Rect> {
+    let area = Rect::from_min_size(pos2(viewport.min.x + 14.0, viewport.max.y - HEIGHT), vec2(340.0, 56.0));
+    (viewport.width() >= area.width() + 40.0 && viewport.height() >= 160.0).then_some(area)
+}
+
 /// Draws it.
 pub(super) fn show(painter: &Painter, viewport: Rect, palette: &Palette) {
-    let area = Rect::from_min_size(pos2(viewport.min.x + 14.0, viewport.max.y - HEIGHT), vec2(340.0, 56.0));
-    if viewport.width() < area.width() + 40.0 || viewport.height() < 160.0 {
-        return;
-    }
+    let Some(area) = place(viewport) else { return };
     painter.rect(
         area,
         CornerRadius::same(6),

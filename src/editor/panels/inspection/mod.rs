@@ -95,7 +95,8 @@ pub(super) fn overlay(root: &Ui, rect: Rect, reads: &Reads, viewport: &Viewport,
         legend::show(&painter, rect, &reads.palette);
     }
     if reads.settings.pin_holes {
-        holes::show(&painter, rect, reads, viewport, &state.holes);
+        let legend = legend::place(rect).filter(|_| state.choices.colours);
+        holes::show(&painter, (rect, legend), reads, viewport, &state.holes);
     }
     measure::show(&painter, reads, viewport, state);
 }
