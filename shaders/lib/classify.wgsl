@@ -1,5 +1,5 @@
 // Whether a point is inside the trim loops: the parity grid. Twin: kernel::trim::grid::classify and
-// kernel::trim::record, statement by statement.
+// kernel::trim::record, statement by statement but for `near`, for which the twin takes that some curve is listed.
 // The pass supplies load_trim_cell(i), load_trim_entry(i) -> u32 and load_trim_data(i) -> vec4f.
 
 const GRID_NON_ZERO: u32 = 1u;
@@ -22,11 +22,12 @@ const ROUNDING_UV: f32 = 1.2e-7;
 struct Verdict {
     inside: bool,
     evaluations: u32,
-    listed: bool,      // some curve is near
+    near: bool,        // a curve may be as near as rounding moves points
 }
 
 struct Crossing {
     right: bool,
+    near: bool,
     evaluations: u32,
 }
 
@@ -85,13 +86,22 @@ fn curve_point(address: u32, d: vec2f, degree: u32, rational: bool, t: f32) -> v
     return x;
 }
 
+// Whether a point so far to a `side` of the chord `d` may change sides of the curve, which lies within `bounds` of it, when
+// rounding moves it.
+fn is_near(side: f32, bounds: vec2f, d: vec2f) -> bool {
+    let slack = 2.0 * ROUNDING_UV * (abs(d.x) + abs(d.y));
+    return side >= bounds.x - slack && side <= bounds.y + slack;
+}
+
 // Whether the segment's u at height v is larger than u; ends.y <= v < ends.w.
 fn crossing(address: u32, ends: vec4f, entry: u32, u: f32, v: f32) -> Crossing {
-    if (u < min(ends.x, ends.z)) {
-        return Crossing(true, 0u);
+    let left = min(ends.x, ends.z);
+    let right = max(ends.x, ends.z);
+    if (u < left) {
+        return Crossing(true, u >= left - 2.0 * ROUNDING_UV, 0u);
     }
-    if (u >= max(ends.x, ends.z)) {
-        return Crossing(false, 0u);
+    if (u >= right) {
+        return Crossing(false, u <= right + 2.0 * ROUNDING_UV, 0u);
     }
     let p = vec2f(u, v) - ends.xy;
     let d = ends.zw - ends.xy;
@@ -99,7 +109,7 @@ fn crossing(address: u32, ends: vec4f, entry: u32, u: f32, v: f32) -> Crossing {
     let rational = (entry & ENTRY_RATIONAL) != 0u;
     var side = cross2(p, d);
     if (degree == 1u) {
-        return Crossing(side < 0.0, 0u);
+        return Crossing(side < 0.0, is_near(side, vec2f(0.0), d), 0u);
     }
     let compact = degree == 3u && !rational;
     let q = load_trim_data(address + 1u);
@@ -107,10 +117,10 @@ fn crossing(address: u32, ends: vec4f, entry: u32, u: f32, v: f32) -> Crossing {
     let stored = vec2f(bitcast<f32>(fat & 0xffff0000u), bitcast<f32>(fat << 16u));
     let bounds = select(stored, cubic_bounds(q, d), compact);
     if (side < bounds.x) {
-        return Crossing(true, 0u);
+        return Crossing(true, is_near(side, bounds, d), 0u);
     }
     if (side > bounds.y) {
-        return Crossing(false, 0u);
+        return Crossing(false, is_near(side, bounds, d), 0u);
     }
     var a = vec2f(0.0);
     var b = d;
@@ -133,21 +143,17 @@ fn crossing(address: u32, ends: vec4f, entry: u32, u: f32, v: f32) -> Crossing {
         } else {
             b = m;
         }
-        if (p.x < min(a.x, b.x)) {
-            return Crossing(true, k + 1u);
-        }
-        if (p.x >= max(a.x, b.x)) {
-            return Crossing(false, k + 1u);
-        }
+        let low = min(a.x, b.x);
+        let high = max(a.x, b.x);
         side = cross2(p - a, b - a);
-        if (side < bounds.x * band) {
-            return Crossing(true, k + 1u);
-        }
-        if (side > bounds.y * band) {
-            return Crossing(false, k + 1u);
+        let right_of = p.x < low || (p.x < high && side < bounds.x * band);
+        if (right_of || p.x >= high || side > bounds.y * band) {
+            let at_end = p.y < a.y + 2.0 * ROUNDING_UV || p.y > b.y - 2.0 * ROUNDING_UV;
+            let beside = p.x >= low - 2.0 * ROUNDING_UV && p.x <= high + 2.0 * ROUNDING_UV;
+            return Crossing(right_of, beside && (at_end || is_near(side, bounds * band, b - a)), k + 1u);
         }
     }
-    return Crossing(side < 0.0, MAX_HALVINGS);
+    return Crossing(side < 0.0, true, MAX_HALVINGS);
 }
 
 // The k-th of four steps to points that rounding may have moved here.
@@ -164,6 +170,7 @@ fn classify(grid: GridHeader, u_in: f32, v_in: f32) -> Verdict {
     let v = min(max(v_in, 0.0), BELOW_ONE);
     var x = u * grid.scale_u;
     var y = v * grid.scale_v;
+    var scale = vec2f(grid.scale_u, grid.scale_v);
     var column = min(u32(x), grid.columns - 1u);
     var row = min(u32(y), grid.rows - 1u);
     var index = grid.cell_base + row * grid.columns + column;
@@ -176,6 +183,7 @@ fn classify(grid: GridHeader, u_in: f32, v_in: f32) -> Verdict {
         let k = load_trim_entry(child + 1u);
         x = (x - f32(column)) * f32(k);
         y = (y - f32(row)) * f32(k);
+        scale *= f32(k);
         column = min(u32(x), k - 1u);
         row = min(u32(y), k - 1u);
         index = grid.cell_base + load_trim_entry(child) + row * k + column;
@@ -185,6 +193,9 @@ fn classify(grid: GridHeader, u_in: f32, v_in: f32) -> Verdict {
     let first = cell >> 8u;
     let end = load_trim_cell(index + 1u) >> 8u;
     var evaluations = 0u;
+    // Curves of the next cell may not be listed here.
+    let border = min(vec2f(x, y) - vec2f(f32(column), f32(row)), vec2f(f32(column), f32(row)) + 1.0 - vec2f(x, y));
+    var near = end > first && any(border < 4.0 * ROUNDING_UV * scale);
     for (var e = first; e < min(end, first + MAX_ENTRIES); e++) {
         let entry = load_trim_entry(grid.entry_base + e);
         let address = grid.data_base + (entry >> 10u);
@@ -192,11 +203,14 @@ fn classify(grid: GridHeader, u_in: f32, v_in: f32) -> Verdict {
         var value: bool;
         if (v < ends.y) {
             value = (entry & ENTRY_LO) != 0u;
+            near |= v >= ends.y - 2.0 * ROUNDING_UV;
         } else if (v >= ends.w) {
             value = (entry & ENTRY_HI) != 0u;
+            near |= v <= ends.w + 2.0 * ROUNDING_UV;
         } else {
             let c = crossing(address, ends, entry, u, v);
             value = c.right;
+            near |= c.near;
             evaluations += c.evaluations;
         }
         if (value) {
@@ -204,5 +218,5 @@ fn classify(grid: GridHeader, u_in: f32, v_in: f32) -> Verdict {
         }
     }
     let inside = select((winding & 1) != 0, winding != 0, (grid.flags & GRID_NON_ZERO) != 0u);
-    return Verdict(inside, evaluations, end > first);
+    return Verdict(inside, evaluations, near);
 }

@@ -32,19 +32,29 @@ fn vertex(@builtin(vertex_index) index: u32) -> Corner {
     return out;
 }
 
-@fragment
-fn fragment(in: Corner) -> @location(0) vec4u {
-    let uv = clamp(in.uv, vec2f(0.0), vec2f(BELOW_ONE));
-    let trim = (view.flags & CAST_TRIM) != 0u;
+fn words(in: Corner, uv: vec2f, verdict: Verdict) -> vec4u {
     let heat = (view.flags & CAST_HEAT) != 0u;
-    var verdict = Verdict(true, 0u, false);
-    if (trim && in.ids.y != 0u) {
-        verdict = kept(faces[in.ids.x].grid, uv);
-    }
-    if (!verdict.inside && !heat) {
-        discard;
-    }
     let normal = in.normal / max(length(in.normal), 1e-37);
     let word = select(pack_normal(normal), pack_heat(normal, verdict.evaluations, verdict.inside, 0u), heat);
     return vec4u(in.ids.x + 1u, bitcast<u32>(uv.x), bitcast<u32>(uv.y), word);
+}
+
+@fragment
+fn fragment(in: Corner) -> @location(0) vec4u {
+    let uv = clamp(in.uv, vec2f(0.0), vec2f(BELOW_ONE));
+    var verdict = Verdict(true, 0u, false);
+    if (in.ids.y != 0u) {
+        verdict = kept(faces[in.ids.x].grid, uv);
+    }
+    if (!verdict.inside && (view.flags & CAST_HEAT) == 0u) {
+        discard;
+    }
+    return words(in, uv, verdict);
+}
+
+// For triangles that are kept whole, and all of them when nothing is trimmed: a pipeline of its own, since drivers that
+// draw many pixels at a time walk through trimming for each as soon as it is in the program.
+@fragment
+fn fragment_whole(in: Corner) -> @location(0) vec4u {
+    return words(in, clamp(in.uv, vec2f(0.0), vec2f(BELOW_ONE)), Verdict(true, 0u, false));
 }

@@ -24,7 +24,7 @@ fn kept(grid: GridHeader, uv: vec2f) -> Verdict {
     var verdict = classify(grid, uv.x, uv.y);
     // As a loop: see seeds.
     for (var k = 0u; k < 4u; k++) {
-        if (verdict.inside || !verdict.listed) {
+        if (verdict.inside || !verdict.near) {
             break;
         }
         let beside = uv + nudge(k);

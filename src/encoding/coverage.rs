@@ -3,7 +3,7 @@
 
 use glam::{DVec2, Vec2};
 
-use crate::kernel::trim::grid::layout::{CELL_REFINED, CELL_SHIFT, ENTRY_SHIFT};
+use crate::kernel::trim::grid::layout::{CELL_REFINED, CELL_SHIFT, ENTRY_SHIFT, MAX_LEVELS};
 use crate::kernel::trim::record::{crossing, load};
 use crate::kernel::trim::{ParityGrid, TrimStructure};
 
@@ -27,22 +27,15 @@ pub fn coverage(grid: &ParityGrid, min: DVec2, max: DVec2) -> Coverage {
     }
     const MARGIN: f64 = 1e-5;
     let rect = Rect { min: (min - MARGIN).as_vec2(), max: (max + MARGIN).as_vec2() };
-    let range = |low: f32, high: f32, count: u32| {
-        let at = |x: f32| ((x * count as f32).max(0.0) as u32).min(count - 1);
-        at(low)..=at(high)
+    let block = Block {
+        first: header.cell_base,
+        columns: header.columns,
+        rows: header.rows,
+        min: Vec2::ZERO,
+        size: Vec2::ONE,
     };
-    for row in range(rect.min.y, rect.max.y, header.rows) {
-        for column in range(rect.min.x, rect.max.x, header.columns) {
-            let index = (header.cell_base + row * header.columns + column) as usize;
-            let (Some(cell), Some(next)) = (grid.cells.get(index), grid.cells.get(index + 1)) else {
-                return Coverage::Mixed;
-            };
-            let list = (cell >> CELL_SHIFT) as usize..(next >> CELL_SHIFT) as usize;
-            let Some(entries) = grid.entries.get(list) else { return Coverage::Mixed };
-            if cell & CELL_REFINED != 0 || entries.iter().any(|e| passes(grid, *e, &rect)) {
-                return Coverage::Mixed;
-            }
-        }
+    if block.meets(grid, &rect, MAX_LEVELS) {
+        return Coverage::Mixed;
     }
     let middle = (0.5 * (min + max)).as_vec2();
     if grid.classify(middle) { Coverage::Whole } else { Coverage::Empty }
@@ -51,6 +44,72 @@ pub fn coverage(grid: &ParityGrid, min: DVec2, max: DVec2) -> Coverage {
 struct Rect {
     min: Vec2,
     max: Vec2,
+}
+
+/// What trimming leaves of a triangle in parameters: of the boxes of its quarters, and of theirs.
+pub fn triangle_coverage(grid: &ParityGrid, [a, b, c]: [DVec2; 3]) -> Coverage {
+    /// The boxes of sixteenths cover a quarter more than the triangle.
+    const QUARTERINGS: u32 = 2;
+    quarters(grid, [a, b, c], QUARTERINGS)
+}
+
+fn quarters(grid: &ParityGrid, [a, b, c]: [DVec2; 3], times: u32) -> Coverage {
+    let found = coverage(grid, a.min(b).min(c), a.max(b).max(c));
+    if found != Coverage::Mixed || times == 0 {
+        return found;
+    }
+    let (p, q, r) = (0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a));
+    let first = quarters(grid, [p, q, r], times - 1);
+    let same = |t: [DVec2; 3]| first != Coverage::Mixed && quarters(grid, t, times - 1) == first;
+    if same([a, p, r]) && same([p, b, q]) && same([r, q, c]) { first } else { Coverage::Mixed }
+}
+
+/// Cells of the grid, side by side over a rectangle of parameters.
+struct Block {
+    /// Position of the first cell.
+    first: u32,
+    columns: u32,
+    rows: u32,
+    min: Vec2,
+    size: Vec2,
+}
+
+impl Block {
+    /// Whether a segment listed in a cell under the rectangle touches it, as far as `levels` of blocks tell.
+    fn meets(&self, grid: &ParityGrid, rect: &Rect, levels: u32) -> bool {
+        let header = &grid.header;
+        let cell_size = self.size / Vec2::new(self.columns as f32, self.rows as f32);
+        let range = |low: f32, high: f32, count: u32| {
+            let at = |x: f32| (x.max(0.0) as u32).min(count - 1);
+            at(low)..=at(high)
+        };
+        let (low, high) = ((rect.min - self.min) / cell_size, (rect.max - self.min) / cell_size);
+        for row in range(low.y, high.y, self.rows) {
+            for column in range(low.x, high.x, self.columns) {
+                let index = (self.first + row * self.columns + column) as usize;
+                let (Some(cell), Some(next)) = (grid.cells.get(index), grid.cells.get(index + 1)) else {
+                    return true;
+                };
+                if cell & CELL_REFINED != 0 {
+                    let child = (header.entry_base + (cell >> CELL_SHIFT)) as usize;
+                    let Some([start, k, ..]) = grid.entries.get(child..) else { return true };
+                    let min = self.min + cell_size * Vec2::new(column as f32, row as f32);
+                    let first = header.cell_base + start;
+                    let inner = Self { first, columns: *k, rows: *k, min, size: cell_size };
+                    if levels <= 1 || *k == 0 || inner.meets(grid, rect, levels - 1) {
+                        return true;
+                    }
+                    continue;
+                }
+                let list = (cell >> CELL_SHIFT) as usize..(next >> CELL_SHIFT) as usize;
+                let Some(entries) = grid.entries.get(list) else { return true };
+                if entries.iter().any(|e| passes(grid, *e, rect)) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
 }
 
 /// Whether a segment touches the rectangle. It is bi-monotone, so over the heights it shares with the

@@ -13,8 +13,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::arena::Arena;
+use super::bisection::{SortedMesh, sort_triangles};
 use super::cell::split_high_low;
-use super::coverage::{Coverage, coverage};
+use super::coverage::Coverage;
 use super::level::{LevelView, level_error};
 use super::scene::{FaceSlot, PackedScene};
 use crate::kernel::face::Face;
@@ -54,16 +55,28 @@ pub struct MeshOrigin {
 #[derive(Debug, Clone)]
 struct Part {
     vertices: Range<u32>,
-    /// Positions in the scene's vertex array.
-    indices: Vec<u32>,
+    /// Corners of the triangles that are kept whole: positions in the scene's vertex array.
+    whole: Vec<u32>,
+    /// Of those that trims pass through.
+    trimmed: Vec<u32>,
 }
 
 /// A face takes no more triangles than this; where it would, it is better cast.
 const FACE_TRIANGLES: usize = 60_000;
 
-/// The triangles of `face` at a level: within its error as far as P2's estimate at points of the surface tells.
-/// `None` where it takes too many, or cannot be tessellated.
-pub fn build(face: &Face, level: i32) -> Option<UntrimmedMesh> {
+/// Triangles that trims pass through are halved until their sides are this many times the error of the level: some ten
+/// pixels where that is half a pixel.
+const TRIMMED_SIDE: f64 = 24.0;
+
+/// The triangles of `face` at a level, sorted by what its trims leave of them. `None` where it takes too many, or
+/// cannot be tessellated.
+pub fn build(face: &Face, level: i32) -> Option<SortedMesh> {
+    let mesh = surface(face, level)?;
+    Some(sort_triangles(mesh, face, TRIMMED_SIDE * level_error(level), FACE_TRIANGLES))
+}
+
+/// The triangles of the untrimmed surface: within the level's error as far as P2's estimate at points of the surface tells.
+pub(super) fn surface(face: &Face, level: i32) -> Option<UntrimmedMesh> {
     let options = TessellationOptions {
         conservative: false,
         triangle_limit: FACE_TRIANGLES,
@@ -82,6 +95,7 @@ pub struct MeshScene {
     refused: BTreeSet<(FaceSlot, i32)>,
     selected: Vec<(FaceSlot, i32)>,
     indices: Vec<u32>,
+    whole_count: usize,
     revision: u64,
 }
 
@@ -117,7 +131,7 @@ impl MeshScene {
     }
 
     /// Takes what [`build`] made, or notes that it made nothing.
-    pub fn take(&mut self, slot: FaceSlot, level: i32, face: &Face, mesh: Option<&UntrimmedMesh>) {
+    pub fn take(&mut self, slot: FaceSlot, level: i32, face: &Face, mesh: Option<&SortedMesh>) {
         match mesh {
             Some(mesh) => self.insert(slot, level, mesh, face),
             None => {
@@ -136,14 +150,14 @@ impl MeshScene {
     }
 
     /// Packs a face's triangles at a level, in place of what was there at that level.
-    pub fn insert(&mut self, slot: FaceSlot, level: i32, mesh: &UntrimmedMesh, face: &Face) {
+    pub fn insert(&mut self, slot: FaceSlot, level: i32, mesh: &SortedMesh, face: &Face) {
         self.drop_part((slot, level));
-        let kept = kept_triangles(mesh, face);
-        let origin = self.origin_of(slot, &kept, mesh);
-        let (vertices, indices) = compact(slot, mesh, face, &kept, origin);
+        let origin = self.origin_of(slot, mesh);
+        let (vertices, [whole, trimmed]) = compact(slot, mesh, face, origin);
         let vertices = self.vertices.insert(&vertices);
-        let indices = indices.into_iter().map(|i| vertices.start + i).collect();
-        self.parts.insert((slot, level), Part { vertices, indices });
+        let placed = |indices: Vec<u32>| indices.into_iter().map(|i| vertices.start + i).collect();
+        let (whole, trimmed) = (placed(whole), placed(trimmed));
+        self.parts.insert((slot, level), Part { vertices, whole, trimmed });
         self.selected.clear();
     }
 
@@ -183,7 +197,11 @@ impl MeshScene {
         if chosen != self.selected || self.indices.is_empty() {
             self.indices.clear();
             for key in &chosen {
-                self.indices.extend_from_slice(&self.parts[key].indices);
+                self.indices.extend_from_slice(&self.parts[key].whole);
+            }
+            self.whole_count = self.indices.len();
+            for key in &chosen {
+                self.indices.extend_from_slice(&self.parts[key].trimmed);
             }
             self.selected = chosen;
             self.revision += 1;
@@ -191,9 +209,14 @@ impl MeshScene {
         lacking
     }
 
-    /// Vertex positions of the selected triangles, three each.
+    /// Vertex positions of the selected triangles, three each: those that are kept whole come first.
     pub fn indices(&self) -> &[u32] {
         &self.indices
+    }
+
+    /// How many of the indices are of triangles that are kept whole.
+    pub fn whole_count(&self) -> usize {
+        self.whole_count
     }
 
     /// All vertices, free ones included.
@@ -232,13 +255,13 @@ impl MeshScene {
     }
 
     /// The face's origin: the middle of its first triangles, kept for all levels.
-    fn origin_of(&mut self, slot: FaceSlot, kept: &[(usize, bool)], mesh: &UntrimmedMesh) -> DVec3 {
+    fn origin_of(&mut self, slot: FaceSlot, sorted: &SortedMesh) -> DVec3 {
         while self.origins.data().len() <= slot.0 as usize {
             self.origins.insert(&[MeshOrigin::zeroed()]);
         }
         if self.levels(slot).next().is_none() {
-            let corners = kept.iter().flat_map(|(k, _)| mesh.triangles[*k]);
-            let centre = Bounds::of(corners.map(|c| mesh.positions[c as usize])).centre();
+            let corners = kept(sorted).flat_map(|(triangle, _)| triangle);
+            let centre = Bounds::of(corners.map(|c| sorted.mesh.positions[c as usize])).centre();
             let (high, low) = split_high_low(centre);
             self.origins.set(slot.0, MeshOrigin { high, pad0: 0, low, pad1: 0 });
         }
@@ -257,47 +280,40 @@ pub fn wanted<'a>(
     shown.filter_map(move |slot| Some((slot, view.level(&scene.face_bounds(slot)?, error_px)?)))
 }
 
-/// Triangles that show anything, by position, and whether they are kept whole.
-fn kept_triangles(mesh: &UntrimmedMesh, face: &Face) -> Vec<(usize, bool)> {
-    let covered = |(k, triangle): (usize, &[u32; 3])| {
-        let uv = triangle.map(|c| face.domain.normalise(mesh.uvs[c as usize]));
-        let (min, max) = (uv[0].min(uv[1]).min(uv[2]), uv[0].max(uv[1]).max(uv[2]));
-        match coverage(&face.grid, min, max) {
-            Coverage::Empty => None,
-            found => Some((k, found == Coverage::Whole)),
-        }
-    };
-    mesh.triangles.iter().enumerate().filter_map(covered).collect()
+/// Triangles that show anything, and whether they are kept whole.
+fn kept(sorted: &SortedMesh) -> impl Iterator<Item = ([u32; 3], bool)> + '_ {
+    let all = sorted.mesh.triangles.iter().zip(&sorted.coverage);
+    all.filter(|(_, found)| **found != Coverage::Empty).map(|(t, found)| (*t, *found == Coverage::Whole))
 }
 
-/// The vertices that are used, once for whole triangles and once for others, and the indices into them.
+/// The vertices that are used, once for whole triangles and once for others, and the indices into them of both.
 fn compact(
     slot: FaceSlot,
-    mesh: &UntrimmedMesh,
+    sorted: &SortedMesh,
     face: &Face,
-    kept: &[(usize, bool)],
     origin: DVec3,
-) -> (Vec<MeshVertex>, Vec<u32>) {
+) -> (Vec<MeshVertex>, [Vec<u32>; 2]) {
     const UNUSED: u32 = u32::MAX;
+    let mesh = &sorted.mesh;
     let mut numbers = [vec![UNUSED; mesh.uvs.len()], vec![UNUSED; mesh.uvs.len()]];
-    let (mut vertices, mut indices) = (Vec::new(), Vec::with_capacity(3 * kept.len()));
-    for (k, whole) in kept {
-        for c in mesh.triangles[*k] {
-            let number = &mut numbers[usize::from(*whole)][c as usize];
-            let c = c as usize;
+    let (mut vertices, mut indices) = (Vec::new(), [Vec::new(), Vec::new()]);
+    for (triangle, whole) in kept(sorted) {
+        let list = usize::from(!whole);
+        for c in triangle.map(|c| c as usize) {
+            let number = &mut numbers[list][c];
             if *number == UNUSED {
                 *number = vertices.len() as u32;
                 vertices.push(MeshVertex {
                     position: (mesh.positions[c] - origin).as_vec3().to_array(),
                     face: slot.0,
                     normal: mesh.normals[c].as_vec3().to_array(),
-                    flags: if *whole { MeshVertex::WHOLE } else { 0 },
+                    flags: if whole { MeshVertex::WHOLE } else { 0 },
                     uv: face.domain.normalise(mesh.uvs[c]).as_vec2().to_array(),
                     pad0: 0,
                     pad1: 0,
                 });
             }
-            indices.push(*number);
+            indices[list].push(*number);
         }
     }
     (vertices, indices)

@@ -1,6 +1,7 @@
 //! The `f32` layout of what the GPU sees: cells, control points, trims, faces, cameras. No GPU in here.
 
 pub mod arena;
+pub mod bisection;
 pub mod cell;
 pub mod coverage;
 pub mod extras;

@@ -11,18 +11,22 @@ use super::pipelines::{self, Pass};
 use super::renderer::{Renderer, Sample};
 use super::targets::{Targets, within};
 use crate::encoding::options::cast_flags;
+use crate::encoding::view::CAST_TRIM;
 use crate::encoding::{FaceSlot, MeshScene, PackedScene, View};
 
-/// Buffers, pipeline and draw list.
+/// Buffers, pipelines and draw lists.
 #[derive(Debug)]
 pub(super) struct MeshPass {
-    pass: Pass,
+    whole: Pass,
+    trimmed: Pass,
     vertices: Mirror,
     origins: Mirror,
     indices: wgpu::Buffer,
-    index_count: u32,
+    /// Of triangles that are kept whole, which come first, and of all.
+    index_counts: [u32; 2],
     revision: Option<u64>,
-    group: Option<wgpu::BindGroup>,
+    /// For either pipeline.
+    groups: Option<[wgpu::BindGroup; 2]>,
     /// Cells of the faces without triangles.
     order: wgpu::Buffer,
     order_count: u32,
@@ -33,13 +37,14 @@ pub(super) struct MeshPass {
 impl MeshPass {
     pub fn new(device: &wgpu::Device) -> Self {
         Self {
-            pass: pipelines::mesh(device),
+            whole: pipelines::mesh(device, false),
+            trimmed: pipelines::mesh(device, true),
             vertices: Mirror::new(device, "mesh vertices", 4096),
             origins: Mirror::new(device, "mesh origins", 4096),
             indices: buffer(device, "mesh indices", 4096, wgpu::BufferUsages::INDEX),
-            index_count: 0,
+            index_counts: [0; 2],
             revision: None,
-            group: None,
+            groups: None,
             order: buffer(device, "mesh order", 4096, wgpu::BufferUsages::STORAGE),
             order_count: 0,
             cast_group: None,
@@ -60,13 +65,13 @@ impl MeshPass {
         let (more, second) = self.origins.update(device, queue, &mut meshes.origins)?;
         bytes += more;
         if first || second {
-            self.group = None;
+            self.groups = None;
         }
         if self.revision != Some(meshes.revision()) {
             let data: &[u8] = bytemuck::cast_slice(meshes.indices());
             fit(device, &mut self.indices, "mesh indices", data.len(), wgpu::BufferUsages::INDEX);
             queue.write_buffer(&self.indices, 0, data);
-            self.index_count = meshes.indices().len() as u32;
+            self.index_counts = [meshes.whole_count() as u32, meshes.indices().len() as u32];
             self.revision = Some(meshes.revision());
             bytes += data.len() as u64;
         }
@@ -86,7 +91,7 @@ impl MeshPass {
 
     /// The scene's buffers were made anew.
     pub fn renew(&mut self) {
-        self.group = None;
+        self.groups = None;
         self.cast_group = None;
     }
 
@@ -99,11 +104,13 @@ impl MeshPass {
         nearest: &wgpu::Buffer,
         cast: &Pass,
     ) {
-        if self.group.is_none() {
-            let mut resources = vec![uniform.clone()];
-            let arrays = buffers.trims().into_iter().chain([&self.vertices.buffer, &self.origins.buffer]);
-            resources.extend(arrays.map(wgpu::Buffer::as_entire_binding));
-            self.group = Some(group(device, "mesh", &self.pass.layout, resources));
+        if self.groups.is_none() {
+            let arrays = || buffers.trims().into_iter().chain([&self.vertices.buffer, &self.origins.buffer]);
+            self.groups = Some([&self.whole, &self.trimmed].map(|pass| {
+                let mut resources = vec![uniform.clone()];
+                resources.extend(arrays().map(wgpu::Buffer::as_entire_binding));
+                group(device, "mesh", &pass.layout, resources)
+            }));
         }
         if self.cast_group.is_none() {
             let resources = cast_resources(uniform, buffers, &self.order, nearest);
@@ -111,13 +118,19 @@ impl MeshPass {
         }
     }
 
-    /// Draws triangles, then casts what has none; `view_slot` is the offset of the view's uniform block.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass, view_slot: u32, cast: &Pass) {
-        if self.index_count > 0 {
-            pass.set_pipeline(&self.pass.pipeline);
-            pass.set_bind_group(0, &self.group, &[view_slot]);
-            pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..self.index_count, 0, 0..1);
+    /// Draws triangles, those that need no trimming first, then casts what has none; `view_slot` is the offset of the view's
+    /// uniform block, `trims` whether it trims.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass, view_slot: u32, trims: bool, cast: &Pass) {
+        let [whole, all] = self.index_counts;
+        let first = if trims { whole } else { all };
+        if let Some([whole_group, trimmed_group]) = &self.groups {
+            let lists = [(&self.whole, whole_group, 0..first), (&self.trimmed, trimmed_group, first..all)];
+            for (with, group, list) in lists.into_iter().filter(|(.., list)| !list.is_empty()) {
+                pass.set_pipeline(&with.pipeline);
+                pass.set_bind_group(0, group, &[view_slot]);
+                pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+                pass.draw_indexed(list, 0, 0..1);
+            }
         }
         if self.order_count > 0 {
             pass.set_pipeline(&cast.pipeline);
@@ -179,7 +192,7 @@ impl Renderer {
         let mut pass = begin_visibility(encoder, "mesh", &self.targets, &self.nearest, true);
         if let Some(mesh) = self.mesh.as_ref().filter(|_| columns > 0) {
             pass.set_scissor_rect(0, 0, columns, size[1]);
-            mesh.draw(&mut pass, slot, cast);
+            mesh.draw(&mut pass, slot, view.flags & CAST_TRIM != 0, cast);
         }
         self.tessellated.draw(&mut pass, slot, size);
     }

@@ -169,14 +169,15 @@ pub(super) fn conceal(device: &wgpu::Device) -> Pass {
     )
 }
 
-/// The pipeline that draws triangles into the visibility buffer; both sides of a surface are seen.
-pub(super) fn mesh(device: &wgpu::Device) -> Pass {
+/// A pipeline that draws triangles into the visibility buffer, with a fragment stage that trims or one that does not; both
+/// sides of a surface are seen.
+pub(super) fn mesh(device: &wgpu::Device, trims: bool) -> Pass {
     build(
         device,
         &Recipe {
-            label: "mesh",
+            label: if trims { "mesh trimmed" } else { "mesh whole" },
             source: shaders::MESH,
-            fragment: "fragment",
+            fragment: if trims { "fragment" } else { "fragment_whole" },
             bindings: &super::mesh::bindings(),
             target: wgpu::ColorTargetState {
                 format: VISIBILITY_FORMAT,

@@ -9,9 +9,9 @@ use bevy::prelude::*;
 use super::faces::RenderFaces;
 use crate::editor::derive::Derived;
 use crate::editor::redraw::Waker;
+use crate::encoding::bisection::SortedMesh;
 use crate::encoding::mesh::{build, wanted};
 use crate::encoding::{FaceSlot, LevelView, MeshScene};
-use crate::kernel::tessellate::UntrimmedMesh;
 
 /// Error on the screen, pixels.
 const ERROR_PX: f64 = 0.5;
@@ -24,7 +24,7 @@ struct Built {
     slot: FaceSlot,
     level: i32,
     of: Arc<Derived>,
-    mesh: Option<UntrimmedMesh>,
+    mesh: Option<SortedMesh>,
 }
 
 /// Triangles in the render world.
