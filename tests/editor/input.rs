@@ -121,3 +121,22 @@ fn of_two_keys_in_one_frame_the_second_sees_what_the_first_did() {
     app.update();
     assert_eq!(shown(&app), before, "and no more");
 }
+
+#[test]
+fn keys_after_a_click_on_a_panel_wait_until_it_is_known_who_has_the_keyboard() {
+    for typing in [false, true] {
+        let mut app = app();
+        let shown = |app: &App| app.world().resource::<Settings>().properties;
+        let before = shown(&app);
+        move_to(&mut app, 50.0, 400.0);
+        button(&mut app, MouseButton::Left, ButtonState::Pressed);
+        button(&mut app, MouseButton::Left, ButtonState::Released);
+        key(&mut app, KeyCode::KeyN, Key::Character("n".into()), ButtonState::Pressed);
+        app.update();
+        assert_eq!(shown(&app), before, "perhaps for a text field");
+        // As panels find out in that frame.
+        app.world_mut().resource_mut::<Pointer>().keyboard_taken = typing;
+        (0..3).for_each(|_| app.update());
+        assert_eq!(shown(&app) != before, !typing);
+    }
+}

@@ -78,6 +78,10 @@ fn greatest_divisor(a: usize, b: usize) -> usize {
     if b == 0 { a } else { greatest_divisor(b, a % b) }
 }
 
+/// A press is a click if the button is let go within this time, seconds. Time passes from frame to frame: with egui's 0.8
+/// clicks are lost where a frame takes that long, while a picture refines on a busy machine, say.
+const CLICK_S: f64 = 10.0;
+
 /// Sets fonts once and the style whenever the theme changes.
 pub(super) fn install(
     mut contexts: EguiContexts,
@@ -97,6 +101,7 @@ pub(super) fn install(
     }
     if installed.is_none() {
         ctx.set_fonts(style::fonts());
+        ctx.options_mut(|options| options.input_options.max_click_duration = CLICK_S);
     }
     *palette = Palette::of(settings.light);
     style::apply(ctx, &palette);

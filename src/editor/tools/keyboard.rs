@@ -24,7 +24,7 @@ pub(super) struct Hands {
 /// Sends the command of each key pressed, if it is enabled now. Events are taken in the order in which they
 /// came: in a slow frame Ctrl may be down and up again, or a panel's text field clicked and typed into,
 /// before it is over. What follows a click on a panel in the same frame may be meant for a text field, so
-/// that plain keys do nothing then.
+/// that it waits for the next one, in which it is known who has the keyboard.
 ///
 /// One command is sent per frame, and what comes after it waits for the next one: so each sees what the one before it
 /// did, and a file saved right after an edit has the edit in it.
@@ -37,7 +37,6 @@ pub(super) fn press(
     waker: Res<Waker>,
     mut requests: MessageWriter<CommandRequest>,
 ) {
-    let mut on_panel = false;
     hands.waiting.extend(events.read().cloned());
     while let Some(event) = hands.waiting.pop_front() {
         let press = match &event {
@@ -45,9 +44,9 @@ pub(super) fn press(
                 hands.position = Some(moved.position);
                 continue;
             }
-            WindowEvent::MouseButtonInput(input) => {
-                if input.state.is_pressed() {
-                    on_panel = !pointer.in_uv && hands.position.is_some_and(|p| !viewport.contains(p));
+            WindowEvent::MouseButtonInput(_) => {
+                if !pointer.in_uv && hands.position.is_some_and(|p| !viewport.contains(p)) {
+                    break;
                 }
                 continue;
             }
@@ -59,8 +58,7 @@ pub(super) fn press(
             _ => continue,
         };
         hands.held.follow(press.key_code, press.state);
-        let typing = pointer.keyboard_taken || (on_panel && !hands.held.ctrl && !hands.held.alt);
-        if !press.state.is_pressed() || press.repeat || typing {
+        if !press.state.is_pressed() || press.repeat || pointer.keyboard_taken {
             continue;
         }
         // X, Y and Z are for the drag; undo and the like end it.
