@@ -26,8 +26,13 @@ pub(super) fn show(
     // On whole pixels, where the pictures meet.
     let scale = viewport.scale_factor.max(0.1);
     let x = (wipe.x(viewport) * scale).round() / scale;
-    let colour = if wipe.hovered { palette.accent } else { Color32::from_gray(235) };
-    painter.vline(x, rect.y_range(), Stroke::new(4.0, Color32::from_black_alpha(90)));
+    let colour = match (wipe.hovered, palette.light) {
+        (true, _) => palette.accent,
+        (false, true) => Color32::from_gray(96),
+        (false, false) => Color32::from_gray(235),
+    };
+    let halo = if palette.light { Color32::from_white_alpha(150) } else { Color32::from_black_alpha(90) };
+    painter.vline(x, rect.y_range(), Stroke::new(4.0, halo));
     painter.vline(x, rect.y_range(), Stroke::new(1.5, colour));
     let grip = Rect::from_center_size(pos2(x, rect.center().y), vec2(14.0, 34.0));
     painter.rect(grip, 7, palette.raised, Stroke::new(1.5, colour), bevy_egui::egui::StrokeKind::Inside);
