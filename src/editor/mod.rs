@@ -27,6 +27,7 @@ pub mod settings;
 mod startup;
 pub mod tessellation;
 pub mod theme;
+mod threads;
 pub mod tools;
 pub mod uv;
 pub mod viewport;
@@ -100,6 +101,7 @@ impl Plugin for EditorPlugin {
                 panels::PanelsPlugin,
                 render::RenderPlugin,
                 diagnostics::DiagnosticsPlugin,
+                threads::OneThreadPlugin,
             ));
         }
     }
