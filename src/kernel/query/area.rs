@@ -32,7 +32,7 @@ const EDGES_ACROSS: f64 = 6.0;
 /// Points of the surface looked at before panels are no longer halved: folded surfaces, whose area element has
 /// creases inside patches, do not converge.
 const EFFORT: usize = 6_000_000;
-/// Finding where an edge crosses a height counts as so many points.
+/// Finding where an edge crosses a height, and an iso-curve of a patch, count as so many points.
 const CROSSING: usize = 6;
 /// Boundaries whose panels are crossed more often than this are sampled in rows.
 const MOST_CROSSINGS: f64 = 2e6;
@@ -200,12 +200,12 @@ impl Panel<'_> {
     /// The panel's area to `tolerance`.
     fn measure(&self, sheet: &Sheet, tolerance: f64, depth: u32, effort: &mut usize) -> Area {
         let across = self.rule_across(sheet, tolerance);
-        let mut spent = self.cost(THREE_ROWS, across) + self.cost(ORDERS[1], across);
+        let mut spent = self.cost(THREE_ROWS, sheet, across) + self.cost(ORDERS[1], sheet, across);
         let mut before = self.integrate(sheet, 1, across);
         let mut error = f64::INFINITY;
         for (order, rows) in ORDERS.into_iter().enumerate().skip(2) {
             let value = self.integrate(sheet, order, across);
-            spent += self.cost(rows, across);
+            spent += self.cost(rows, sheet, across);
             error = (value - before).abs();
             before = value;
             if error <= tolerance {
@@ -228,9 +228,12 @@ impl Panel<'_> {
         Area { value: lower.value + upper.value, error: lower.error + upper.error }
     }
 
-    /// What `rows` rows cost in points, with the rule `across`.
-    fn cost(&self, rows: usize, (order, parts): (usize, usize)) -> usize {
-        rows * (self.edges.len() * CROSSING + self.edges.len().max(2) / 2 * ORDERS[order] * parts)
+    /// What `rows` rows cost in points, with the rule `across`: each patch that a row passes through is an iso-curve to
+    /// make and an interval to integrate over.
+    fn cost(&self, rows: usize, sheet: &Sheet, (order, parts): (usize, usize)) -> usize {
+        let patches = sheet.columns(self.strip.from, self.strip.to);
+        let intervals = self.edges.len().max(2) / 2 + patches;
+        rows * (self.edges.len() * CROSSING + patches * CROSSING + intervals * ORDERS[order] * parts)
     }
 
     /// A rule in u (order index and number of equal parts) that suffices at three heights.

@@ -51,6 +51,11 @@ impl<'a> Sheet<'a> {
         &self.v_lines
     }
 
+    /// How many patches a row of constant v passes through between two values of u.
+    pub(crate) fn columns(&self, from: f64, to: f64) -> usize {
+        interval(&self.u_lines, to) - interval(&self.u_lines, from).min(interval(&self.u_lines, to)) + 1
+    }
+
     /// The patch over the cell between `u_lines[i]`, `u_lines[i + 1]` and `v_lines[j]`, `v_lines[j + 1]`.
     pub fn cell(&self, i: usize, j: usize) -> Option<&'a BezierPatch> {
         let cell = self.cells.get(i * (self.v_lines.len() - 1) + j)?;
