@@ -209,8 +209,8 @@ impl Face {
         IntervalLists::new(&self.pieces, &self.segments, FillRule::EvenOdd)
     }
 
-    /// The trimming structure for millions of questions on the processor: the same answers as
-    /// [`Self::grid`], bit for bit, in about half the time.
+    /// The trimming structure for questions on the processor: the same answers as [`Self::grid`], bit for bit, and
+    /// where a cell is asked often in about half the time.
     pub fn slab_grid(&self) -> SlabGrid {
         match PackedSegments::new(&self.pieces, &self.segments) {
             Ok(packed) => SlabGrid::new(&self.segments, &packed, &GridOptions::default()),

@@ -88,10 +88,12 @@ impl Trimmed {
             ] {
                 let options = GridOptions { cells_per_segment: per_segment, crowded, levels, rule };
                 let grid = ParityGrid::new(&self.set, &self.packed, &options);
-                let slabs = SlabGrid::over(grid.clone());
+                let (slabs, lazy) = (SlabGrid::over(grid.clone()), SlabGrid::over(grid.clone()));
+                slabs.complete();
                 for (p, inside) in points.iter().zip(&truth) {
                     assert_eq!(grid.classify(*p), *inside, "{p:?} with {options:?}");
                     assert_eq!(slabs.classify(*p), *inside, "slabs: {p:?} with {options:?}");
+                    assert_eq!(lazy.classify(*p), *inside, "lazy slabs: {p:?} with {options:?}");
                 }
             }
         }
@@ -249,6 +251,7 @@ fn slabs_leave_few_points_to_the_grid() {
     for (shape, most) in shapes {
         let trimmed = Trimmed::new(&shape.loops(400));
         let slabs = SlabGrid::new(&trimmed.set, &trimmed.packed, &GridOptions::default());
+        slabs.complete();
         let brute = BruteForce::new(trimmed.packed.clone(), FillRule::EvenOdd);
         let (mut counters, count) = (Counters::default(), 20_000);
         let mut random = Random(11);

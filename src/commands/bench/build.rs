@@ -20,7 +20,8 @@ const MOST_CLIPPED: usize = 500_000;
 /// `out` cannot be written.
 pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
     let mut sheet = Sheet::new(
-        "Building, one thread, fastest of several runs. Split: us per curve; records, grid, slabs, P1: us per segment",
+        "Building, one thread, fastest of several runs. Split: us per curve; records, grid, slabs, P1: us per segment\n\
+         (a slab is made when its cell is asked often; `all slabs` is what making every one would add)",
         &[
             "shape",
             "curves",
@@ -30,6 +31,7 @@ pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
             "grid",
             "records+grid",
             "slabs",
+            "all slabs",
             "P1",
             "B/segment",
             "slabs B/segment",
@@ -77,6 +79,9 @@ fn shape_row(shape: Shape, curves: usize) -> Vec<String> {
     let grid = ParityGrid::new(&set, &packed, &options);
     let slabs_time = fastest(runs, || SlabGrid::new(&set, &packed, &options));
     let slabs = SlabGrid::new(&set, &packed, &options);
+    let fresh =
+        std::cell::RefCell::new((0..runs).map(|_| SlabGrid::over(slabs.grid().clone())).collect::<Vec<_>>());
+    let all_slabs = fastest(runs, || fresh.borrow_mut().pop().map(|slabs| slabs.complete()));
     let clipped = IntervalLists::count_clipped(&set);
     let bounded = || IntervalLists::bounded(&pieces, &set, FillRule::EvenOdd, MOST_CLIPPED);
     let lists = bounded();
@@ -92,6 +97,7 @@ fn shape_row(shape: Shape, curves: usize) -> Vec<String> {
         us(grid_time, segments),
         us(records + grid_time, segments),
         us(slabs_time, segments),
+        us(all_slabs, segments),
         number(lists_time.map(|t| 1e6 * t / segments)),
         number(Some(grid.memory_bytes() as f64 / segments)),
         number(Some(slabs.memory_bytes() as f64 / segments)),

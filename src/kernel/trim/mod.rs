@@ -4,8 +4,8 @@
 //! ([`segment::Segment`]); a structure answers "inside?" for one point at a time. Three structures
 //! share one interface, [`TrimStructure`]: [`brute::BruteForce`] (all segments, the yardstick),
 //! P1's interval lists (Schollmeyer & Froehlich 2009, section 4) and [`grid::ParityGrid`], the
-//! default, whose buffers are also what the GPU reads; [`SlabGrid`] is the same made quicker for millions of
-//! questions on the processor. The f64 oracle is apart from all of them.
+//! default, whose buffers are also what the GPU reads; [`SlabGrid`] is the same for
+//! questions on the processor, where it is quicker. The f64 oracle is apart from all of them.
 //!
 //! Conventions: u, v normalised to `[0, 1]`; rays run in +u; a segment is crossed at `v` when
 //! `v_lower <= v < v_upper` (decided on shared f32 vertices) and its `u(v) > u`.

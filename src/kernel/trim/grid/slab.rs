@@ -66,18 +66,24 @@ pub fn place(x: f32, scale: f32) -> (u32, i32) {
     ((parts >> PARTS.trailing_zeros()) as u32, (parts & (PARTS - 1)) - PARTS / 2)
 }
 
-/// The slabs of the outer block of `grid`, cell by cell.
-pub fn slabs(grid: &ParityGrid) -> Vec<u32> {
-    let (columns, rows) = (grid.header.columns, grid.header.rows);
-    let mut maker = Maker { grid, cell: [0; 2], bands: Vec::new() };
-    let mut slabs = Vec::with_capacity((columns * rows) as usize);
-    for row in 0..rows {
-        for column in 0..columns {
-            maker.cell = [column, row];
-            slabs.push(maker.slab());
-        }
-    }
-    slabs
+/// Questions that [`unmade`] counts at most: normals of slabs that are made are longer.
+pub const MOST_ASKED: i32 = 8;
+
+/// What stands for a slab that is not made yet, in a cell that was asked `times` times, 1 to [`MOST_ASKED`]. It
+/// decides nothing, as no position brings `s` to its limits.
+pub const fn unmade(times: i32) -> u32 {
+    word([times, 0], [-64, 63], [false; 2])
+}
+
+/// How often a cell was asked whose slab is not made yet; `None` when it is made.
+pub fn asked(word: u32) -> Option<i32> {
+    let times = (word & 0xff) as i32;
+    ((1..=MOST_ASKED).contains(&times) && word == unmade(times)).then_some(times)
+}
+
+/// The slab of cell `[column, row]` of the outer block of `grid`.
+pub fn slab(grid: &ParityGrid, cell: [u32; 2]) -> u32 {
+    Maker { grid, cell, bands: Vec::new() }.slab()
 }
 
 /// Part of a curve in cell coordinates: within `thickness` of the chord from `p` to `q`.
@@ -95,7 +101,7 @@ struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    fn slab(&mut self) -> u32 {
+    fn slab(mut self) -> u32 {
         let grid = self.grid;
         let index = (self.cell[1] * grid.header.columns + self.cell[0]) as usize;
         let cell = grid.cells[index];
