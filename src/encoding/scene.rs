@@ -85,6 +85,11 @@ impl<'a> FaceShape<'a> {
         let colour = colour.unwrap_or(DEFAULT_COLOUR);
         Self { patches: &face.patches, domain: face.domain, grid: Some(&face.grid), colour, reversed }
     }
+
+    /// Cuts and packs the face: the dear part of adding it to a scene, for any thread. Colour and side do not matter.
+    pub fn pack(&self) -> PackedCells {
+        tiling::pack(self, 0, None)
+    }
 }
 
 impl PackedScene {
@@ -99,6 +104,11 @@ impl PackedScene {
 
     /// Adds a face and says where it is.
     pub fn add(&mut self, shape: &FaceShape) -> FaceSlot {
+        self.add_packed(shape, shape.pack())
+    }
+
+    /// The same for a face that was packed before by [`FaceShape::pack`].
+    pub fn add_packed(&mut self, shape: &FaceShape, packed: PackedCells) -> FaceSlot {
         let slot = match self.vacant.pop_first() {
             Some(slot) => slot,
             None => {
@@ -106,7 +116,7 @@ impl PackedScene {
                 self.faces.insert(&[bytemuck::Zeroable::zeroed()]).start
             }
         };
-        self.fill(slot, shape, FaceHeader::VISIBLE, None);
+        self.place(slot, shape, FaceHeader::VISIBLE, Entry::empty(), packed);
         FaceSlot(slot)
     }
 
@@ -316,10 +326,17 @@ impl PackedScene {
             });
             tiling::pack(shape, slot, before)
         };
+        self.place(slot, shape, flags, before.unwrap_or_else(Entry::empty), packed);
+    }
+
+    /// Puts the packed cells of a face, of any slot, where those of `old` are.
+    fn place(&mut self, slot: u32, shape: &FaceShape, flags: u32, old: Entry, packed: PackedCells) {
         let PackedCells { mut cells, points, bounds, tiling } = packed;
-        let old = before.unwrap_or_else(Entry::empty);
         let points = self.points.replace(old.points, &points);
-        cells.iter_mut().for_each(|c| c.first_point += points.start);
+        cells.iter_mut().for_each(|c| {
+            c.first_point += points.start;
+            c.face = slot;
+        });
         let cells = self.cells.replace(old.cells, &cells);
         let untrimmed = ParityGrid::default();
         let grid = shape.grid.unwrap_or(&untrimmed);

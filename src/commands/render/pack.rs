@@ -27,7 +27,10 @@ pub fn prepare(model: &ModelRecord, progress: &(dyn Fn(f64) + Sync)) -> Prepared
         .faces
         .par_iter()
         .map(|record| {
-            let face = record.derive();
+            let face = record.derive().map(|face| {
+                let packed = FaceShape::of(&face, record.colour, record.reversed).pack();
+                (face, packed)
+            });
             let so_far = 1 + done.fetch_add(1, Ordering::Relaxed);
             progress(so_far as f64 / model.faces.len() as f64);
             face
@@ -37,8 +40,8 @@ pub fn prepare(model: &ModelRecord, progress: &(dyn Fn(f64) + Sync)) -> Prepared
     let mut faces = Vec::with_capacity(derived.len());
     for (index, (record, face)) in model.faces.iter().zip(derived).enumerate() {
         match face {
-            Ok(face) => {
-                scene.add(&FaceShape::of(&face, record.colour, record.reversed));
+            Ok((face, packed)) => {
+                scene.add_packed(&FaceShape::of(&face, record.colour, record.reversed), packed);
                 faces.push(Some(face));
             }
             Err(error) => {

@@ -1,7 +1,9 @@
 //! What the editor keeps of a face beside its record.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use crate::encoding::FaceShape;
+use crate::encoding::tiling::PackedCells;
 use crate::kernel::face::Face;
 use crate::kernel::query;
 use crate::kernel::view::Bounds;
@@ -16,6 +18,8 @@ pub struct Derived {
     pub bounds: Bounds,
     /// What takes longer to work out; there some time after the face is shown.
     measures: OnceLock<Measures>,
+    /// The face packed for drawing, from when that was done ahead until it is taken.
+    packed: Arc<Mutex<Option<PackedCells>>>,
     /// Number of trim loops.
     pub loops: usize,
     /// Number of trim curves.
@@ -54,6 +58,19 @@ impl Derived {
         }
     }
 
+    /// Packs the face for drawing ahead of time: to be done beside the window's thread, where many faces are loaded.
+    pub fn pack(&self) {
+        if let Some(face) = &self.face {
+            let packed = FaceShape::of(face, None, false).pack();
+            *self.packed.lock().unwrap_or_else(PoisonError::into_inner) = Some(packed);
+        }
+    }
+
+    /// What [`Self::pack`] made, once.
+    pub fn take_packed(&self) -> Option<PackedCells> {
+        self.packed.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
     /// Derives everything from the record. Never fails: what went wrong is in [`Self::failure`].
     pub fn of(record: &FaceRecord) -> Self {
         Self::after(record, None)
@@ -75,6 +92,6 @@ impl Derived {
             }
         };
         let bounds = bounds.or(face.as_ref().map(|f| f.bounds)).unwrap_or(Bounds::EMPTY);
-        Self { face, bounds, measures: OnceLock::new(), loops, curves, failure }
+        Self { face, bounds, measures: OnceLock::new(), packed: Arc::default(), loops, curves, failure }
     }
 }

@@ -139,7 +139,11 @@ fn derive_all(
         .map(|face| {
             let before = done.fetch_add(1, Ordering::Relaxed);
             let fraction = READING + (1.0 - READING) * before as f32 / count as f32;
-            progress(fraction, "Building").then(|| Some(Arc::new(Derived::of(face))))
+            progress(fraction, "Building").then(|| {
+                let derived = Derived::of(face);
+                derived.pack();
+                Some(Arc::new(derived))
+            })
         })
         .collect();
     derived.ok_or(LoadError::Cancelled)

@@ -236,7 +236,10 @@ fn pack(faces: &mut RenderFaces, selection: &Selection, frame: Duration) -> bool
                 faces.packed.replace(slot, &shape);
                 slot
             }
-            None => faces.packed.add(&shape),
+            None => match origin.derived.take_packed() {
+                Some(packed) => faces.packed.add_packed(&shape, packed),
+                None => faces.packed.add(&shape),
+            },
         };
         faces.packed.set_flag(slot, FaceHeader::VISIBLE, origin.shown);
         origin.slot = Some(slot);
