@@ -84,6 +84,20 @@ pub struct SourceRecord {
 }
 
 impl FaceRecord {
+    /// A face that is nothing but geometry: no loops means all of the surface.
+    pub fn new(surface: NurbsSurface, loops: Vec<LoopRecord>) -> Self {
+        Self {
+            name: None,
+            source: None,
+            colour: None,
+            layer: None,
+            part: None,
+            surface,
+            loops,
+            reversed: false,
+        }
+    }
+
     /// The face ready to classify, measure and draw.
     ///
     /// # Errors

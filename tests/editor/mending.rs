@@ -33,16 +33,7 @@ fn cut_cylinder(gap: f64, unit: LengthUnit) -> ModelRecord {
         .map(|(t, up)| DVec2::new(u0 + t * (u1 - u0), middle + up));
     let knots = KnotVector::bezier(3, 0.0, 1.0).expect("valid test data");
     upper[0] = NurbsCurve2::new(knots, points.to_vec(), vec![1.0; 4]).expect("valid test data");
-    let face = |curves| FaceRecord {
-        name: None,
-        source: None,
-        colour: None,
-        layer: None,
-        part: None,
-        surface: surface.clone(),
-        loops: vec![LoopRecord::new(LoopRole::Outer, curves)],
-        reversed: false,
-    };
+    let face = |curves| FaceRecord::new(surface.clone(), vec![LoopRecord::new(LoopRole::Outer, curves)]);
     let faces = vec![face(side(v0, middle)), face(upper)];
     ModelRecord { name: "cut".into(), unit, faces, ..ModelRecord::default() }
 }

@@ -29,16 +29,7 @@ fn plane() -> NurbsSurface {
 }
 
 fn face(surface: NurbsSurface, loops: Vec<LoopRecord>) -> Face {
-    let record = FaceRecord {
-        name: None,
-        source: None,
-        colour: None,
-        layer: None,
-        part: None,
-        surface,
-        loops,
-        reversed: false,
-    };
+    let record = FaceRecord::new(surface, loops);
     record.derive().expect("a valid face")
 }
 

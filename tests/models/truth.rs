@@ -87,16 +87,7 @@ impl Face {
             let role = if l.outer { LoopRole::Outer } else { LoopRole::Inner };
             Ok(LoopRecord::new(role, l.curves.iter().map(curve).collect::<Result<_, _>>()?))
         };
-        Ok(FaceRecord {
-            name: None,
-            source: None,
-            colour: None,
-            layer: None,
-            part: None,
-            surface,
-            loops: self.loops.iter().map(record).collect::<Result<_, _>>()?,
-            reversed: false,
-        })
+        Ok(FaceRecord::new(surface, self.loops.iter().map(record).collect::<Result<_, _>>()?))
     }
 }
 

@@ -19,16 +19,7 @@ const SIZE: u32 = 160;
 fn record(points: Vec<DVec3>) -> FaceRecord {
     let knots = || KnotVector::bezier(1, 0.0, 1.0).expect("knots");
     let surface = NurbsSurface::new(knots(), knots(), points, vec![1.0; 4]).expect("surface");
-    FaceRecord {
-        name: None,
-        source: None,
-        colour: None,
-        layer: None,
-        part: None,
-        surface,
-        loops: Vec::new(),
-        reversed: false,
-    }
+    FaceRecord::new(surface, Vec::new())
 }
 
 /// Two plates in the plane z = 0 that lack a wedge between x = 0 and `gap * (0.5 + 0.05 y)`, and a floor far below.

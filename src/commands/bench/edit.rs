@@ -97,16 +97,8 @@ pub fn face(holes: usize, patches: usize) -> FaceRecord {
         let curves = ring.iter().map(spline).collect();
         loops.push(LoopRecord::new(LoopRole::Inner, curves));
     }
-    FaceRecord {
-        name: Some(format!("{holes} holes")),
-        source: None,
-        colour: None,
-        layer: None,
-        part: None,
-        surface: NurbsSurface::new(knots(), knots(), points, weights).expect("invariant: counts fit"),
-        loops,
-        reversed: false,
-    }
+    let surface = NurbsSurface::new(knots(), knots(), points, weights).expect("invariant: counts fit");
+    FaceRecord { name: Some(format!("{holes} holes")), ..FaceRecord::new(surface, loops) }
 }
 
 fn spline(curve: &BezierCurve2) -> NurbsCurve2 {

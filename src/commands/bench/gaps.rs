@@ -104,16 +104,7 @@ fn quilt(side: usize) -> Vec<FaceRecord> {
             let by = DVec3::Z * 1e-3 * (k as f64 * 0.37).sin();
             surface = surface.map_points(|p| p + by);
         }
-        Some(FaceRecord {
-            name: None,
-            source: None,
-            colour: None,
-            layer: None,
-            part: None,
-            surface,
-            loops: Vec::new(),
-            reversed: false,
-        })
+        Some(FaceRecord::new(surface, Vec::new()))
     };
     (0..side * side).filter_map(face).collect()
 }

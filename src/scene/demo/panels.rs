@@ -35,13 +35,9 @@ pub fn panels(faces: usize) -> ModelRecord {
         let band = row / ROWS_PER_PART;
         FaceRecord {
             name: Some(format!("Panel {}.{}", row + 1, column + 1)),
-            source: None,
             colour: Some(COLOURS[band % COLOURS.len()]),
-            layer: None,
             part: Some(band),
-            surface: ground.panel(column, row),
-            loops: loops(index),
-            reversed: false,
+            ..FaceRecord::new(ground.panel(column, row), loops(index))
         }
     };
     ModelRecord {

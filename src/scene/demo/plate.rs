@@ -45,14 +45,6 @@ pub fn holes(count: usize) -> FaceRecord {
         let cell = DVec2::new((k as f64 % side).floor() + 0.5, (k as f64 / side).floor() + 0.5);
         loops.push(trim_loop(LoopRole::Inner, circle(cell / side, 0.35 / side)));
     }
-    FaceRecord {
-        name: Some(format!("{count} holes")),
-        source: None,
-        colour: None,
-        layer: None,
-        part: None,
-        surface: plane(DVec3::ZERO, DVec3::X, DVec3::Y, DVec2::ZERO, DVec2::ONE),
-        loops,
-        reversed: false,
-    }
+    let surface = plane(DVec3::ZERO, DVec3::X, DVec3::Y, DVec2::ZERO, DVec2::ONE);
+    FaceRecord { name: Some(format!("{count} holes")), ..FaceRecord::new(surface, loops) }
 }

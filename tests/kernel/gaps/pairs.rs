@@ -10,16 +10,7 @@ use hairline::scene::records::{FaceRecord, LoopRecord, LoopRole};
 pub fn face(surface: NurbsSurface, loops: Vec<Vec<NurbsCurve2>>) -> FaceRecord {
     let role = |k: usize| if k == 0 { LoopRole::Outer } else { LoopRole::Inner };
     let loops = loops.into_iter().enumerate().map(|(k, curves)| LoopRecord::new(role(k), curves)).collect();
-    FaceRecord {
-        name: None,
-        source: None,
-        colour: None,
-        layer: None,
-        part: None,
-        surface,
-        loops,
-        reversed: false,
-    }
+    FaceRecord::new(surface, loops)
 }
 
 /// A quarter of a cylinder of `radius` about z, from height `low` to `high`. u is around, v is up.
