@@ -31,7 +31,9 @@ const ACCURACY: f64 = 1e-10;
 const EDGES_ACROSS: f64 = 6.0;
 /// Points of the surface looked at before panels are no longer halved: folded surfaces, whose area element has
 /// creases inside patches, do not converge.
-const EFFORT: usize = 1_200_000;
+const EFFORT: i64 = 2_000_000;
+/// So many more, and panels get one try each: many panels that do not converge, which damaged files have.
+const OVERTIME: i64 = 12_000_000;
 /// Finding where an edge crosses a height, and an iso-curve of a patch, count as so many points.
 const CROSSING: usize = 6;
 /// Boundaries whose panels are crossed more often than this are sampled in rows.
@@ -198,8 +200,8 @@ fn panels<'b>(sheet: &Sheet, strip: &'b Strip, whole: bool) -> Vec<Panel<'b>> {
 
 impl Panel<'_> {
     /// The panel's area to `tolerance`.
-    fn measure(&self, sheet: &Sheet, tolerance: f64, depth: u32, effort: &mut usize) -> Area {
-        if *effort == 0 {
+    fn measure(&self, sheet: &Sheet, tolerance: f64, depth: u32, effort: &mut i64) -> Area {
+        if *effort < -OVERTIME {
             let [rough, value] = [0, 1].map(|order| self.integrate(sheet, order, (order, 1)));
             return Area { value, error: (value - rough).abs() };
         }
@@ -216,11 +218,11 @@ impl Panel<'_> {
                 break;
             }
         }
-        *effort = effort.saturating_sub(spent);
+        *effort = effort.saturating_sub(i64::try_from(spent).unwrap_or(i64::MAX));
         if error <= tolerance {
             return Area { value: before, error };
         }
-        if depth == 0 || *effort == 0 || error.is_nan() {
+        if depth == 0 || *effort <= 0 || error.is_nan() {
             return Area { value: before, error };
         }
         let middle = 0.5 * (self.low + self.high);
