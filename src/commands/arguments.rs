@@ -110,9 +110,12 @@ pub struct TessellateArguments {
     /// Estimate the error instead of guaranteeing it.
     #[arg(long)]
     pub approximate: bool,
-    /// Stop rather than make more triangles than this.
+    /// Ask before making more triangles than this; stop where there is no terminal to ask at.
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     pub limit: usize,
+    /// Go on beyond the limit without asking.
+    #[arg(short, long)]
+    pub yes: bool,
     /// File to write: .glb, .stl, .obj or .ply.
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,

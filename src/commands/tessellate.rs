@@ -1,6 +1,6 @@
 //! `hairline tessellate`: a model as triangles within an error, into a mesh file.
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::time::Instant;
 
@@ -99,13 +99,19 @@ pub fn run(arguments: &TessellateArguments) -> Result<(), Failure> {
     let derived = model.derive_all();
     let faces: Vec<Option<&Face>> = derived.iter().map(|f| f.as_ref().ok()).collect();
     let prepare_s = start.elapsed().as_secs_f64();
-    let options = options(arguments, &model, &faces)?;
-    let progress = Progress::start("tessellating");
-    let start = Instant::now();
-    let work = Work { progress: &|part| progress.set(part), cancelled: &|| false };
-    let meshed = mesh_faces(&faces, &options, &work).map_err(|error| refusal(&error, arguments))?;
+    let mut options = options(arguments, &model, &faces)?;
+    let mut start = Instant::now();
+    let mut meshed = tessellate(&faces, &options);
+    if let Err(TessellateError::TooManyTriangles { limit }) = meshed
+        && limit < TessellationOptions::TRIANGLE_LIMIT
+        && go_on(limit)?
+    {
+        options.triangle_limit = TessellationOptions::TRIANGLE_LIMIT;
+        start = Instant::now();
+        meshed = tessellate(&faces, &options);
+    }
+    let meshed = meshed.map_err(|error| refusal(&error, arguments))?;
     let tessellate_s = start.elapsed().as_secs_f64();
-    drop(progress);
     let mut statistics = statistics(&model, &faces, &meshed, &options);
     for (face, error) in derived.iter().enumerate() {
         if let (Err(error), Some(entry)) = (error, statistics.left_out.iter_mut().find(|l| l.0 == face + 1)) {
@@ -118,6 +124,24 @@ pub fn run(arguments: &TessellateArguments) -> Result<(), Failure> {
     }
     write(&model, &meshed, format, &arguments.output)?;
     tell(&statistics, arguments.json).map_err(|e| Failure::stdout(&e))
+}
+
+fn tessellate(faces: &[Option<&Face>], options: &TessellationOptions) -> Result<ModelMesh, TessellateError> {
+    let progress = Progress::start("tessellating");
+    let work = Work { progress: &|part| progress.set(part), cancelled: &|| false };
+    mesh_faces(faces, options, &work)
+}
+
+/// Asks whether to make more triangles than `limit`; no where nobody can answer.
+fn go_on(limit: usize) -> Result<bool, Failure> {
+    if !(io::stdin().is_terminal() && io::stderr().is_terminal()) {
+        return Ok(false);
+    }
+    eprint!("hairline: this needs more than {limit} triangles. Go on? [y/N] ");
+    let mut answer = String::new();
+    let read = io::stdin().read_line(&mut answer);
+    read.map_err(|e| Failure::Work { reason: format!("the question was not answered: {e}") })?;
+    Ok(matches!(answer.trim().to_lowercase().as_str(), "y" | "yes"))
 }
 
 fn format_of(path: &Path) -> Result<Format, Failure> {
@@ -167,7 +191,7 @@ fn options(
         conservative: !arguments.approximate,
         max_angle: arguments.angle.map(|a| a.0),
         max_edge: arguments.max_edge.map(|l| l.mm / unit),
-        triangle_limit: arguments.limit,
+        triangle_limit: if arguments.yes { TessellationOptions::TRIANGLE_LIMIT } else { arguments.limit },
         ..TessellationOptions::new(tolerance)
     })
 }
@@ -176,7 +200,7 @@ fn refusal(error: &TessellateError, arguments: &TessellateArguments) -> Failure 
     match error {
         TessellateError::TooManyTriangles { limit } => Failure::Work {
             reason: format!(
-                "this needs more than {limit} triangles; choose a larger --error than {}, or allow more with --limit N",
+                "this needs more than {limit} triangles; choose a larger --error than {}, or allow more with --limit N or --yes",
                 arguments.error
             ),
         },

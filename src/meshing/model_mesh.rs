@@ -57,6 +57,8 @@ impl Work<'_> {
 const ROUNDS: usize = 8;
 /// Rounds in which faces are meshed again for chords that cross or stand in the way.
 const MESH_ROUNDS: usize = 5;
+/// More triangles than this part of the limit that are to be expected are too many.
+const SURELY: f64 = 1.25;
 /// Share of the tolerance within which outlines meet.
 const REACH: f64 = 0.5;
 /// The same as a part of the model's size, at most and at least.
@@ -88,6 +90,8 @@ pub fn remesh_faces(
     work: &Work,
 ) -> Result<ModelMesh, TessellateError> {
     options.check()?;
+    // Loops that share edges with others keep their curves' ends.
+    let options = &TessellationOptions { simplify: false, ..options.clone() };
     let prepared: Vec<Result<Tessellator, TessellateError>> = faces
         .par_iter()
         .map(|face| match face {
@@ -114,7 +118,10 @@ pub fn remesh_faces(
     let size = bounds.diagonal();
     let reach = (REACH * options.tolerance).min(FARTHEST * size).max(NEAREST * size);
     let seams = Seams::new(&prepared, reach);
-    let mut division = Division::new(&seams, &prepared);
+    let too_many = TessellateError::TooManyTriangles { limit: options.triangle_limit };
+    let Some(mut division) = Division::new(&seams, &prepared, options.triangle_limit) else {
+        return Err(too_many);
+    };
     (work.progress)(0.25);
     let mut boundaries = division.boundaries();
     let mut open: Vec<usize> = (0..faces.len()).collect();
@@ -137,6 +144,14 @@ pub fn remesh_faces(
         if mesh.is_none() && same {
             *mesh = previous.faces.get(face).cloned();
         }
+    }
+    let waiting = |face: &usize| meshes[*face].is_none();
+    let expected: f64 = (0..faces.len())
+        .filter(waiting)
+        .filter_map(|face| Some(prepared[face].as_ref()?.expected(&boundaries[face])))
+        .sum();
+    if expected > SURELY * options.triangle_limit as f64 {
+        return Err(too_many);
     }
     let done = AtomicUsize::new(0);
     let triangles = AtomicUsize::new(0);
@@ -227,15 +242,22 @@ struct Division<'s, 'f, 'a> {
 }
 
 impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
-    fn new(seams: &'s Seams, faces: &'f [Option<Tessellator<'a>>]) -> Self {
+    /// Divides all seams; `None` where that takes more than `limit` chords, each of which has a triangle.
+    fn new(seams: &'s Seams, faces: &'f [Option<Tessellator<'a>>], limit: usize) -> Option<Self> {
         let mut stretches: BTreeMap<(usize, usize, usize), Vec<usize>> = BTreeMap::new();
         for (k, stretch) in seams.stretches.iter().enumerate() {
             let a = stretch.address;
             stretches.entry((a.face, a.chain, a.run)).or_default().push(k);
         }
-        let samples =
-            (0..seams.seams.len()).into_par_iter().map(|seam| seams.divide(seam, faces, 1.0)).collect();
-        Self { seams, faces, samples, parts: vec![1.0; seams.seams.len()], stretches }
+        let chords = AtomicUsize::new(0);
+        let divide = |seam: usize| {
+            let samples = seams.divide(seam, faces, 1.0);
+            let own = samples.len().saturating_sub(1);
+            // Stretches that are points have no triangles.
+            (own == 1 || chords.fetch_add(own, Ordering::Relaxed) + own <= limit).then_some(samples)
+        };
+        let samples = (0..seams.seams.len()).into_par_iter().map(divide).collect::<Option<_>>()?;
+        Some(Self { seams, faces, samples, parts: vec![1.0; seams.seams.len()], stretches })
     }
 
     /// The chords of a face.

@@ -70,6 +70,8 @@ const FAR: f64 = 0.05;
 /// Stretches shorter than this part of the reach and of their chain are nothing.
 const NOTHING: f64 = 0.3;
 const NOTHING_OF_CHAIN: f64 = 0.01;
+/// Places between the ends at which stretches of a seam are compared.
+const GAP_SAMPLES: usize = 7;
 /// Ends this part of the reach off a run cut it: less than ends may be from each other, for spikes are thin.
 const CUT: f64 = 0.2;
 /// Ends closer than this share of a run's own length are not one vertex.
@@ -216,20 +218,33 @@ impl Seams {
 
     /// How far the ends of a seam's stretches are from their common vertices, and its stretches from each other.
     fn gap(&self, seam: usize, faces: &[Option<Tessellator>]) -> f64 {
+        let stretches = &self.seams[seam].stretches;
         let mut gap = 0.0f64;
-        let mut middle = None;
-        for number in &self.seams[seam].stretches {
-            let stretch = &self.stretches[*number];
+        for (number, which) in stretches.iter().enumerate() {
+            let stretch = &self.stretches[*which];
             let Some((_, run)) = run_of(faces, &stretch.address) else { continue };
             let (from, to) = stretch.range;
             for (s, end) in [(from, stretch.ends[0]), (to, stretch.ends[1])] {
                 gap = gap.max(run.point(s).distance(self.vertices[end]));
             }
-            let here = run.point(0.5 * (from + to));
-            let there = *middle.get_or_insert(here);
-            if there != here {
-                let s = run.project(there, 0.5 * (from + to), stretch.range);
-                gap = gap.max(run.point(s).distance(there));
+            let owner = &self.stretches[stretches[0]];
+            let Some((_, first)) = run_of(faces, &owner.address).filter(|_| number > 0) else { continue };
+            let line = |run: &Run| run.pieces.len() == 1 && run.pieces[0].space.degree() == 1;
+            let places = if line(run) && line(first) { 1 } else { GAP_SAMPLES };
+            for k in 1..=places {
+                let share = k as f64 / (places + 1) as f64;
+                let point = first.point(owner.range.0 + (owner.range.1 - owner.range.0) * share);
+                let share = if stretch.forward { share } else { 1.0 - share };
+                let s = run.project(point, from + (to - from) * share, stretch.range);
+                let mut off = run.point(s).distance(point);
+                // The two may be run through at other speeds: the guess was too far away, then.
+                if off > gap
+                    && let Some((nearest, _)) = run.nearest_within(point, off)
+                {
+                    let s = run.project(point, nearest.clamp(from, to), stretch.range);
+                    off = off.min(run.point(s).distance(point));
+                }
+                gap = gap.max(off);
             }
         }
         gap

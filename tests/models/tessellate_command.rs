@@ -61,8 +61,16 @@ fn useless_tolerances_and_limits_are_refused_or_noted() {
         NOT_WRITTEN,
         "more than 50 triangles",
     );
+    // Told before the work, not after: this would be billions.
+    fails(
+        &["tessellate", &cube, "--error", "1um", "--max-edge", "1um", "-o", &out],
+        NOT_WRITTEN,
+        "allow more with --limit N or --yes",
+    );
     fails(&["tessellate", &cube, "--error", "-1mm", "-o", &out], BAD_INPUT, "--error");
     assert!(!path.exists());
+    let (found, _, _) = figures(&cube, &["--error", "1um", "--limit", "50", "--yes"]);
+    assert!(found["triangles"].as_u64() > Some(50));
     let (found, stderr, _) = figures(&cube, &["--error", "100m"]);
     assert!(stderr.contains("is large for a model"), "{stderr}");
     assert!(found["triangles"].as_u64() > Some(0));

@@ -52,9 +52,8 @@ const MOST: f64 = 2e6;
 impl ChordLimits {
     /// The limits that `options` set for curves.
     pub fn new(options: &TessellationOptions) -> Self {
-        let share = if options.simplify { options.gamma } else { 1.0 };
         Self {
-            tolerance: share * options.tolerance,
+            tolerance: options.tolerance,
             angle: options.max_angle.unwrap_or(WIDEST_TURN).min(WIDEST_TURN),
             length: options.max_edge.unwrap_or(f64::INFINITY),
         }
@@ -241,7 +240,7 @@ fn shares(demands: &[f64], count: usize, probes: usize) -> Vec<f64> {
 }
 
 /// Whether the part of a run between two parameters lies within `tolerance` of its chord.
-fn is_within(run: &Run, from: f64, to: f64, tolerance: f64) -> bool {
+pub(super) fn is_within(run: &Run, from: f64, to: f64, tolerance: f64) -> bool {
     let (a, b) = (run.point(from), run.point(to));
     let (first, last) = (from as usize, (to.ceil() as usize).clamp(1, run.pieces.len()));
     (first..last).all(|k| {

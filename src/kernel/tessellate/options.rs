@@ -45,9 +45,9 @@ pub struct TessellationOptions {
     pub max_angle: Option<f64>,
     /// Longest edge of a triangle.
     pub max_edge: Option<f64>,
-    /// Share of the tolerance that trim curves are approximated with; loop simplification may use the rest.
+    /// Share of the tolerance that trim curves are approximated with where P2's simplification is to use the rest.
     pub gamma: f64,
-    /// Whether loops of a single face are simplified. Edges shared with other faces never are.
+    /// Whether whole loops of a single face are simplified. Edges shared with other faces never are.
     pub simplify: bool,
     /// How trim curves are divided.
     pub curve_division: CurveDivision,

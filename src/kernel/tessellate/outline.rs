@@ -231,6 +231,15 @@ impl Outline {
         Self { chains: (0..face.pieces.chain_count()).map(chain).collect() }
     }
 
+    /// The outline with one run for each chain: what simplification of whole loops goes along.
+    pub fn joined(self) -> Self {
+        let join = |runs: Vec<Run>| {
+            let pieces: Vec<LiftedPiece> = runs.into_iter().flat_map(|run| run.pieces).collect();
+            if pieces.is_empty() { Vec::new() } else { vec![Run { source: None, pieces }] }
+        };
+        Self { chains: self.chains.into_iter().map(join).collect() }
+    }
+
     /// All runs with the numbers of their chain and place in it.
     pub fn runs(&self) -> impl Iterator<Item = (usize, usize, &Run)> {
         let chains = self.chains.iter().enumerate();

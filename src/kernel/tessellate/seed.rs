@@ -28,6 +28,14 @@ pub(super) struct Seed {
     pub spacing: DVec2,
 }
 
+/// About how many lattice vertices the part `bounds` of a face takes, were all of it inside.
+pub(super) fn expected(bends: &Bends, bounds: &UvRect, tolerance: f64) -> f64 {
+    let area = bounds.size().x * bounds.size().y / (HEIGHT * SIDE * 2.0 * PART * tolerance);
+    let mean = bends.bends.iter().map(|b| (b.x * b.y).sqrt()).sum::<f64>() / bends.bends.len() as f64;
+    let count = area * mean;
+    if count.is_finite() { count } else { 0.0 }
+}
+
 /// Lattice vertices over the part `bounds` of a face, at most about `most`; `None` where it would take more.
 pub(super) fn seeds(bends: &Bends, bounds: &UvRect, tolerance: f64, most: usize) -> Option<Vec<Seed>> {
     let size = bounds.size();
@@ -126,6 +134,7 @@ mod tests {
         let expected = area / (SIDE * HEIGHT * radius * radius);
         assert!((found.len() as f64 / expected - 1.0).abs() < 0.1, "{} {expected}", found.len());
         assert!(found.iter().all(|s| s.uv.cmpgt(bounds.min).all() && s.uv.cmplt(bounds.max).all()));
+        assert!((found.len() as f64 / super::expected(&even, &bounds, 1e-3) - 1.0).abs() < 0.1);
         assert_eq!(seeds(&even, &bounds, 1e-3, 100), None);
         let bent_once = Bends { bounds, bends: [DVec2::new(8.0, 0.0); SAMPLES * SAMPLES] };
         assert_eq!(seeds(&bent_once, &bounds, 1e-3, 100_000), Some(Vec::new()));

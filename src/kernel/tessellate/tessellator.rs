@@ -16,11 +16,11 @@ use super::options::{TessellateError, TessellationOptions};
 use super::outline::{Ground, Outline, Run};
 use super::plane::Plane;
 use super::refine::{Middles, Refinement, Vertices};
-use super::seed::seeds;
-use super::simplify::simplify;
+use super::seed::{expected, seeds};
+use super::simplify::simplify_along;
 use super::triangulate::Region;
 use super::untangle::untangle;
-use crate::kernel::face::Face;
+use crate::kernel::face::{Face, Side};
 use crate::kernel::trim::UvRect;
 
 /// Vertices along every run of a face, `[chain][run]`, both ends of each included.
@@ -44,6 +44,10 @@ pub struct Tessellator<'a> {
     outline: Outline,
     plane: Option<Plane>,
     flatness: Option<Flatness<'a>>,
+    /// How the surface bends, unless it is a plane.
+    bends: Option<Bends>,
+    /// Places in the triangulation per native parameters.
+    scale: DVec2,
     options: TessellationOptions,
     tolerance: f64,
 }
@@ -51,7 +55,7 @@ pub struct Tessellator<'a> {
 /// Share of the tolerance within which a face counts as plane.
 const FLAT: f64 = 1e-3;
 /// Chords keep to this share, because triangles beside them bend as much and more.
-const CHORD_SHARE: f64 = 0.95;
+pub const CHORD_SHARE: f64 = 0.95;
 /// Chords whose proven error is above this share are too long for triangles beside them.
 const CHORD_LIMIT: f64 = 0.985;
 /// Runs shorter than this part of the tolerance are one point.
@@ -79,11 +83,18 @@ impl<'a> Tessellator<'a> {
             }
         }
         let outline = Outline::new(face, &ground, 1e-3 * options.tolerance);
+        let outline = if options.simplify { outline.joined() } else { outline };
         let plane = Plane::of(&ground, FLAT * options.tolerance);
         let flatness = (options.conservative && plane.is_none()).then(|| Flatness::new(&ground));
+        let bent = plane.is_none().then(|| Bends::new(&ground, &face.domain));
+        let scale = bent
+            .as_ref()
+            .map_or(DVec2::ONE, |(bends, speed)| scale(bends, *speed, face.domain.size(), options.tolerance));
         Ok(Self {
             face,
             ground,
+            bends: bent.map(|b| b.0),
+            scale,
             outline,
             plane,
             flatness,
@@ -118,6 +129,18 @@ impl<'a> Tessellator<'a> {
                 }
             }
         }
+        if self.options.simplify {
+            // The same inside of joined runs.
+            for samples in boundary.iter_mut().flatten() {
+                for k in 1..samples.len() {
+                    if samples[k].point.distance(samples[k - 1].point) <= NOTHING * self.tolerance {
+                        let of = if k + 1 == samples.len() { k } else { k - 1 };
+                        let point = samples[of].point;
+                        (samples[k].point, samples[k - 1].point) = (point, point);
+                    }
+                }
+            }
+        }
         boundary
     }
 
@@ -145,8 +168,7 @@ impl<'a> Tessellator<'a> {
         cancelled: &dyn Fn() -> bool,
     ) -> Result<(FaceMesh, Vec<LongChord>), TessellateError> {
         let flatness = self.flatness.as_ref();
-        let (bends, speed) = Bends::new(&self.ground, &self.face.domain);
-        let scale = self.scale(&bends, speed);
+        let scale = self.scale;
         let refinement = Refinement {
             ground: &self.ground,
             flatness,
@@ -203,9 +225,7 @@ impl<'a> Tessellator<'a> {
         }
         let fixed = vertices.uvs.len();
         if !(self.plane.is_some() && self.options.max_edge.is_none()) {
-            if self.plane.is_none() {
-                self.sow(&bends, &refinement, &mut region, &mut vertices)?;
-            }
+            self.sow(&refinement, &mut region, &mut vertices)?;
             let refined = refinement.run(&mut region, &mut vertices, cancelled)?;
             quality.error = refined.error;
             quality.over_tolerance = refined.over;
@@ -307,15 +327,13 @@ impl<'a> Tessellator<'a> {
     /// Puts the first vertices inside.
     fn sow(
         &self,
-        bends: &Bends,
         refinement: &Refinement,
         region: &mut Region,
         vertices: &mut Vertices,
     ) -> Result<(), TessellateError> {
-        let around = |(low, high): (DVec2, DVec2), uv: &DVec2| (low.min(*uv), high.max(*uv));
-        let (min, max) = vertices.uvs.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around);
+        let Some(bends) = &self.bends else { return Ok(()) };
+        let bounds = around(vertices.uvs.iter().copied());
         let limit = self.options.triangle_limit;
-        let bounds = UvRect { min, max };
         // A lattice over the box may be mostly outside of the face.
         let most = limit.saturating_mul(MOSTLY_OUTSIDE);
         let Some(seeds) = seeds(bends, &bounds, self.tolerance, most) else {
@@ -339,27 +357,69 @@ impl<'a> Tessellator<'a> {
         }
     }
 
-    /// Factors that make the parameters even in what they do to the error: lengths of about one in either direction
-    /// are what one triangle can span.
-    fn scale(&self, bends: &Bends, speed: DVec2) -> DVec2 {
-        let size = self.face.domain.size();
-        let bend = bends.mean();
-        let reach = |axis: usize| {
-            let flat = (8.0 * self.tolerance / bend[axis].max(f64::MIN_POSITIVE)).sqrt();
-            flat.min(size[axis])
-        };
-        let step = DVec2::new(reach(0), reach(1));
-        let length = step * speed;
-        // Triangles much longer than wide are hard on everything downstream.
-        const LONGEST: f64 = 300.0;
-        let limit = LONGEST * length.min_element();
-        let step = DVec2::new(
-            if length.x > limit && speed.x > 0.0 { limit / speed.x } else { step.x },
-            if length.y > limit && speed.y > 0.0 { limit / speed.y } else { step.y },
-        );
-        let scale = 1.0 / step;
-        if scale.is_finite() && scale.min_element() > 0.0 { scale } else { 1.0 / size }
+    /// About how many triangles the mesh within `boundary` will have.
+    pub fn expected(&self, boundary: &Boundary) -> f64 {
+        /// Fewer vertices inside are not worth knowing better.
+        const MANY: f64 = 1000.0;
+        const PROBES: usize = 8;
+        /// Area of the largest triangle with edges of length one.
+        const LARGEST: f64 = 0.433;
+        let samples = || boundary.iter().flatten().flatten();
+        let chords: usize = boundary.iter().flatten().map(|run| run.len().saturating_sub(1)).sum();
+        let bounds = around(samples().map(|s| s.uv));
+        let small =
+            self.options.max_edge.map_or(0.0, |edge| self.area(boundary, &bounds) / (LARGEST * edge * edge));
+        let Some(bends) = &self.bends else { return small.max(chords as f64) };
+        let mut inside = expected(bends, &bounds, self.tolerance);
+        if inside > MANY {
+            let probe = |k: usize| {
+                let share = DVec2::new((k % PROBES) as f64 + 0.5, (k / PROBES) as f64 + 0.5) / PROBES as f64;
+                let uv = bounds.native(share);
+                self.face.classify_native(uv.x, uv.y) == Side::In
+            };
+            let hits = (0..PROBES * PROBES).filter(|k| probe(*k)).count();
+            inside *= hits as f64 / (PROBES * PROBES) as f64;
+        }
+        small.max(chords as f64 + 2.0 * inside)
     }
+
+    /// About the area within `boundary`: of the polygons in parameters, times what the surface does to areas in the middle.
+    fn area(&self, boundary: &Boundary, bounds: &UvRect) -> f64 {
+        let ring = |runs: &Vec<Vec<EdgeSample>>| -> f64 {
+            let places: Vec<DVec2> = runs.iter().flatten().map(|s| s.uv - bounds.min).collect();
+            let next = places.iter().cycle().skip(1);
+            places.iter().zip(next).map(|(a, b)| 0.5 * a.perp_dot(*b)).sum()
+        };
+        let at = self.ground.tangents(0.5 * (bounds.min + bounds.max));
+        boundary.iter().map(ring).sum::<f64>().abs() * at.du.cross(at.dv).length()
+    }
+}
+
+/// The rectangle around places.
+fn around(places: impl Iterator<Item = DVec2>) -> UvRect {
+    let start = UvRect { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY };
+    places.fold(start, |r, p| UvRect { min: r.min.min(p), max: r.max.max(p) })
+}
+
+/// Factors that make the parameters even in what they do to the error: lengths of about one in either direction
+/// are what one triangle can span.
+fn scale(bends: &Bends, speed: DVec2, size: DVec2, tolerance: f64) -> DVec2 {
+    let bend = bends.mean();
+    let reach = |axis: usize| {
+        let flat = (8.0 * tolerance / bend[axis].max(f64::MIN_POSITIVE)).sqrt();
+        flat.min(size[axis])
+    };
+    let step = DVec2::new(reach(0), reach(1));
+    let length = step * speed;
+    // Triangles much longer than wide are hard on everything downstream.
+    const LONGEST: f64 = 300.0;
+    let limit = LONGEST * length.min_element();
+    let step = DVec2::new(
+        if length.x > limit && speed.x > 0.0 { limit / speed.x } else { step.x },
+        if length.y > limit && speed.y > 0.0 { limit / speed.y } else { step.y },
+    );
+    let scale = 1.0 / step;
+    if scale.is_finite() && scale.min_element() > 0.0 { scale } else { 1.0 / size }
 }
 
 /// Edges of triangles that look away from the surface: where one of them is a chord it is too long.
@@ -422,10 +482,10 @@ pub fn tessellate_with(
     let tessellator = Tessellator::new(face, options)?;
     let mut boundary = tessellator.own_boundary();
     if options.simplify {
-        let rest = (1.0 - options.gamma) * options.tolerance;
         let longest = options.max_edge.unwrap_or(f64::INFINITY);
-        for samples in boundary.iter_mut().flatten() {
-            *samples = simplify(samples, rest, longest);
+        let runs = tessellator.outline.chains.iter().flatten();
+        for (samples, run) in boundary.iter_mut().flatten().zip(runs) {
+            *samples = simplify_along(run, samples, CHORD_SHARE * options.tolerance, longest);
         }
     }
     let mut parts = BTreeMap::new();
