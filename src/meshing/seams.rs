@@ -63,6 +63,8 @@ type Runs<'a> = Vec<(RunAddress, &'a Run)>;
 const LEAST_SHARE: f64 = 0.3;
 /// Stretches between the same vertices that each one is compared with at most.
 const MOST_BESIDE: usize = 24;
+/// Two stretches of which this part of their length is between them are not one, whatever their ends.
+const THIN: f64 = 0.05;
 /// Stretches of one face make a seam within this part of the reach.
 const SAME_FACE: f64 = 0.02;
 /// Feet farther off than this part of a step are looked for along the whole run.
@@ -90,19 +92,21 @@ impl Seams {
             .collect();
         let lengths: Vec<f64> = runs.iter().map(|(_, run)| rough_part(run, 0.0, run.range())).collect();
         let mut cuts: Vec<Vec<f64>> = runs.iter().map(|(_, run)| vec![0.0, run.range()]).collect();
-        let whole = Self::between(&runs, &cuts, reach);
+        let tolerance = faces.iter().flatten().map(Tessellator::tolerance).fold(0.0, f64::max);
+        let widest = reach.max((1.0 - LEAST_SHARE) * tolerance);
+        let whole = Self::between(&runs, &cuts, reach, widest);
         // Runs that have found their like from end to end need no cuts, whatever else ends on them.
         let single: Vec<bool> =
             whole.stretches.iter().map(|s| whole.seams[s.seam].stretches.len() == 1).collect();
         if add_cuts(&runs, &single, &lengths, reach, &mut cuts) {
-            Self::between(&runs, &cuts, reach)
+            Self::between(&runs, &cuts, reach, widest)
         } else {
             whole
         }
     }
 
     /// The seams of `runs` divided at `cuts`.
-    fn between(runs: &Runs, cuts: &[Vec<f64>], reach: f64) -> Self {
+    fn between(runs: &Runs, cuts: &[Vec<f64>], reach: f64, widest: f64) -> Self {
         let mut stretches = Vec::new();
         let mut places: Vec<DVec3> = Vec::new();
         let mut own: Vec<f64> = Vec::new();
@@ -134,12 +138,12 @@ impl Seams {
             let at = runs.binary_search_by(|r| r.0.cmp(&s.address)).unwrap_or(0);
             runs[at].1
         };
-        result.pair(reach, &of);
+        result.pair(reach, widest, &of);
         result
     }
 
     /// Puts stretches between the same vertices together where their middles meet.
-    fn pair<'a>(&mut self, reach: f64, run: &dyn Fn(&Stretch) -> &'a Run) {
+    fn pair<'a>(&mut self, reach: f64, widest: f64, run: &dyn Fn(&Stretch) -> &'a Run) {
         let mut groups: BTreeMap<[usize; 2], Vec<usize>> = BTreeMap::new();
         for (k, stretch) in self.stretches.iter().enumerate() {
             let [a, b] = stretch.ends;
@@ -147,13 +151,38 @@ impl Seams {
         }
         let mut firsts: Vec<Vec<usize>> = Vec::new();
         for group in groups.into_values() {
-            let own = self.side_by_side(&group, reach, run);
+            let mut own = self.side_by_side(&group, reach, run);
+            self.pair_last_two(&mut own, widest, run);
             firsts.extend(own);
         }
         firsts.sort_by_key(|s| s[0]);
         for (number, seam) in firsts.into_iter().enumerate() {
             seam.iter().for_each(|k| self.stretches[*k].seam = number);
             self.seams.push(Seam { stretches: seam });
+        }
+    }
+
+    /// Where two stretches of different faces are left between the same two vertices, and no others, they are one seam as
+    /// long as the gap between them leaves chords their share of the tolerance.
+    fn pair_last_two<'a>(
+        &mut self,
+        seams: &mut Vec<Vec<usize>>,
+        widest: f64,
+        run: &dyn Fn(&Stretch) -> &'a Run,
+    ) {
+        let [a, b] = match seams.as_slice() {
+            [a, b] if a.len() == 1 && b.len() == 1 => [a[0], b[0]],
+            _ => return,
+        };
+        let [x, y] = [self.stretches[a], self.stretches[b]];
+        if x.address.face == y.address.face || x.ends[0] == x.ends[1] {
+            return;
+        }
+        let length = [x, y].map(|s| rough_part(run(&s), s.range.0, s.range.1));
+        let reach = widest.min(THIN * length[0].min(length[1]));
+        if let Some((forward, _)) = beside(run(&x), &x, run(&y), &y, reach) {
+            self.stretches[b].forward = forward == self.stretches[a].forward;
+            *seams = vec![vec![a, b]];
         }
     }
 
