@@ -56,7 +56,7 @@ impl Work<'_> {
 /// Rounds of shortening chords before and after meshing.
 const ROUNDS: usize = 8;
 /// Rounds in which faces are meshed again for chords that cross or stand in the way.
-const MESH_ROUNDS: usize = 5;
+const MESH_ROUNDS: usize = 10;
 /// More triangles than this part of the limit that are to be expected are too many.
 const SURELY: f64 = 1.25;
 /// Share of the tolerance within which outlines meet.
