@@ -197,9 +197,14 @@ impl<'a> Target<'a> {
 
     /// Distance of `p` from a part of the outline, which is too short to have more than one nearest point.
     fn off_part(&self, p: DVec3, part: usize) -> f64 {
-        let (curve, mut from, mut to) = self.parts[part];
-        let off = |t: f64| self.curves[curve].point(t).distance(p);
-        for _ in 0..24 {
+        let (curve, start, end) = self.parts[part];
+        let curve = &self.curves[curve];
+        if curve.degree() == 1 {
+            return distance_to_segment(p, curve.point(start), curve.point(end));
+        }
+        let (mut from, mut to) = (start, end);
+        let off = |t: f64| curve.point(t).distance(p);
+        for _ in 0..12 {
             let third = (to - from) / 3.0;
             if off(from + third) < off(to - third) {
                 to -= third;
@@ -207,7 +212,19 @@ impl<'a> Target<'a> {
                 from += third;
             }
         }
-        off(0.5 * (from + to)).min(off(self.parts[part].1)).min(off(self.parts[part].2))
+        // From here Newton's method is quicker.
+        let mut best = off(start).min(off(end));
+        let mut t = 0.5 * (from + to);
+        for _ in 0..6 {
+            let (here, d) = curve.tangent(t);
+            best = best.min(here.distance(p));
+            let step = (p - here).dot(d) / d.length_squared();
+            if !step.is_finite() {
+                break;
+            }
+            t = (t + step).clamp(start, end);
+        }
+        best.min(off(t))
     }
 }
 
