@@ -25,13 +25,16 @@ mod toolbar;
 mod tree;
 mod tree_look;
 mod tree_rows;
+mod typing;
 mod view_cube;
 
 use bevy::ecs::query::QueryData;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy::window::{PrimaryWindow, RequestRedraw};
-use bevy_egui::{EguiContexts, EguiPostUpdateSet, EguiPrimaryContextPass, EguiRenderOutput, egui};
+use bevy_egui::{
+    EguiContexts, EguiPostUpdateSet, EguiPreUpdateSet, EguiPrimaryContextPass, EguiRenderOutput, egui,
+};
 
 pub use notice::{Notice, Notices};
 
@@ -63,6 +66,10 @@ impl Plugin for PanelsPlugin {
             .init_resource::<Palette>()
             .init_resource::<PanelState>()
             .add_systems(Update, (sheets, notice::expire).in_set(super::EditorSystems::Present))
+            .add_systems(
+                PreUpdate,
+                typing::correct.after(EguiPreUpdateSet::ProcessInput).before(EguiPreUpdateSet::BeginPass),
+            )
             .add_systems(EguiPrimaryContextPass, (theme::install, show).chain())
             .add_systems(
                 PostUpdate,
