@@ -124,7 +124,8 @@ impl Region {
             delaunay.vertex_data_mut(handle).number = number;
         }
         let mut region = Self { delaunay };
-        if crossings.places.is_empty() {
+        // A crossing on a vertex makes no new place, but its chords were laid in other ways than counted.
+        if crossings.pairs.is_empty() {
             region.spread(&odd);
         } else {
             region.flood(places, loops);
@@ -373,6 +374,23 @@ mod tests {
         ];
         let (region, _) = Region::new(&places, &loops);
         assert!((area(&region, &places) - 2.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_hole_that_touches_the_sides_leaves_the_corners() {
+        for off in [0.0, 1e-16, -1e-16, 1e-9, -1e-9] {
+            let mut places = Vec::new();
+            let square = ring(&[(1.0, 1.0), (9.0, 1.0), (9.0, 9.0), (1.0, 9.0)], &mut places);
+            let circle = |k: usize| {
+                let angle = std::f64::consts::TAU * k as f64 / 48.0;
+                (5.0 + (4.0 + off) * angle.cos(), 5.0 + (4.0 + off) * angle.sin())
+            };
+            let hole = ring(&(0..48).map(circle).collect::<Vec<_>>(), &mut places);
+            let (region, crossings) = Region::new(&places, &[square, hole]);
+            places.extend(&crossings.places);
+            let expected = 64.0 - 0.5 * 48.0 * 16.0 * (std::f64::consts::TAU / 48.0).sin();
+            assert!((area(&region, &places) - expected).abs() < 1e-6, "{off:e}: {}", area(&region, &places));
+        }
     }
 
     #[test]
