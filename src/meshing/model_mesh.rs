@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::seams::{Seams, run_of};
 use crate::kernel::face::Face;
-use crate::kernel::tessellate::tessellator::{STEP, is_common};
+use crate::kernel::tessellate::chords::{STEP, halve_chord, is_common};
 use crate::kernel::tessellate::{
     Boundary, EdgeSample, FaceMesh, LongChord, TessellateError, TessellationOptions, Tessellator,
 };
@@ -324,7 +324,7 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
                 self.samples[seam] = self.seams.divide(seam, self.faces, self.parts[seam]);
             } else if let Some((_, run)) = run_of(self.faces, &first.address) {
                 for chord in chords.into_iter().rev() {
-                    crate::kernel::tessellate::tessellator::halve_chord(run, &mut self.samples[seam], chord);
+                    halve_chord(run, &mut self.samples[seam], chord);
                 }
             }
         }

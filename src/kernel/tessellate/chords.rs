@@ -292,3 +292,22 @@ fn by_pieces(run: &Run, limits: &ChordLimits, division: CurveDivision, error: Cu
     }
     places
 }
+
+/// Whether so many of a run's chords are too long that it is divided anew.
+pub fn is_common(long: usize, all: usize) -> bool {
+    all > 2 && 3 * long >= all
+}
+
+/// What the tolerance of a run that is divided anew shrinks by.
+pub const STEP: f64 = 0.8;
+
+/// Puts a vertex in the middle of a chord, or near it where pieces of the run meet: creases of the surface lie there.
+pub fn halve_chord(run: &Run, samples: &mut Vec<EdgeSample>, index: usize) {
+    let (a, b) = (samples[index].s, samples[index + 1].s);
+    let middle = 0.5 * (a + b);
+    let joint = middle.round();
+    let s = if (joint - middle).abs() < 0.3 * (b - a) { joint } else { middle };
+    if s > a && s < b {
+        samples.insert(index + 1, EdgeSample { s, uv: run.uv(s), point: run.point(s) });
+    }
+}

@@ -17,7 +17,6 @@ use super::outline::{Ground, Outline, Run};
 use super::plane::Plane;
 use super::refine::{Middles, Refinement, Vertices};
 use super::seed::{expected, seeds};
-use super::simplify::simplify_along;
 use super::triangulate::Region;
 use super::untangle::untangle;
 use crate::kernel::face::{Face, Side};
@@ -62,8 +61,6 @@ const CHORD_LIMIT: f64 = 0.985;
 const NOTHING: f64 = 1e-6;
 /// Vertices of a lattice over the box of a face, for each that may lie inside.
 const MOSTLY_OUTSIDE: usize = 8;
-/// Rounds in which chords are divided for the sake of the face.
-const ROUNDS: usize = 6;
 
 impl<'a> Tessellator<'a> {
     /// Lifts the outline of `face`.
@@ -460,95 +457,6 @@ fn finish(vertices: Vertices, triangles: Vec<[u32; 3]>, loops: Vec<Vec<u32>>, qu
         |ring: Vec<u32>| ring.into_iter().map(|v| name[v as usize]).filter(|v| *v != u32::MAX).collect();
     mesh.loops = loops.into_iter().map(kept).collect();
     mesh
-}
-
-/// The mesh of a single face, its boundary divided by its own needs.
-///
-/// # Errors
-/// See [`TessellateError`].
-pub fn tessellate(face: &Face, options: &TessellationOptions) -> Result<FaceMesh, TessellateError> {
-    tessellate_with(face, options, &|| false)
-}
-
-/// The same, given up when `cancelled` says so.
-///
-/// # Errors
-/// See [`TessellateError`].
-pub fn tessellate_with(
-    face: &Face,
-    options: &TessellationOptions,
-    cancelled: &dyn Fn() -> bool,
-) -> Result<FaceMesh, TessellateError> {
-    let tessellator = Tessellator::new(face, options)?;
-    let mut boundary = tessellator.own_boundary();
-    if options.simplify {
-        let longest = options.max_edge.unwrap_or(f64::INFINITY);
-        let runs = tessellator.outline.chains.iter().flatten();
-        for (samples, run) in boundary.iter_mut().flatten().zip(runs) {
-            *samples = simplify_along(run, samples, CHORD_SHARE * options.tolerance, longest);
-        }
-    }
-    let mut parts = BTreeMap::new();
-    for _ in 0..ROUNDS {
-        let long = tessellator.long_chords(&boundary);
-        if long.is_empty() {
-            break;
-        }
-        tessellator.shorten(&mut boundary, &long, &mut parts);
-    }
-    for _ in 0..ROUNDS {
-        let (mesh, long) = tessellator.mesh(&boundary, cancelled)?;
-        if long.is_empty() {
-            return Ok(mesh);
-        }
-        tessellator.shorten(&mut boundary, &long, &mut parts);
-    }
-    tessellator.mesh(&boundary, cancelled).map(|found| found.0)
-}
-
-impl Tessellator<'_> {
-    /// Divides chords that are too long: a run of which many are is divided anew for a smaller part of the
-    /// tolerance (kept in `parts`), so that its chords stay even; else each is halved.
-    fn shorten(
-        &self,
-        boundary: &mut Boundary,
-        long: &[LongChord],
-        parts: &mut BTreeMap<(usize, usize), f64>,
-    ) {
-        for group in long.chunk_by(|a, b| (a.chain, a.run) == (b.chain, b.run)) {
-            let LongChord { chain, run, .. } = group[0];
-            let samples = &mut boundary[chain][run];
-            let source = &self.outline.chains[chain][run];
-            if is_common(group.len(), samples.len() - 1) {
-                let part = parts.entry((chain, run)).or_insert(1.0);
-                *part *= STEP;
-                *samples = self.divide(source, *part);
-            } else {
-                for chord in group.iter().rev() {
-                    halve_chord(source, samples, chord.index);
-                }
-            }
-        }
-    }
-}
-
-/// Whether so many of a run's chords are too long that it is divided anew.
-pub fn is_common(long: usize, all: usize) -> bool {
-    all > 2 && 3 * long >= all
-}
-
-/// What the tolerance of a run that is divided anew shrinks by.
-pub const STEP: f64 = 0.8;
-
-/// Puts a vertex in the middle of a chord, or near it where pieces of the run meet: creases of the surface lie there.
-pub fn halve_chord(run: &super::outline::Run, samples: &mut Vec<EdgeSample>, index: usize) {
-    let (a, b) = (samples[index].s, samples[index + 1].s);
-    let middle = 0.5 * (a + b);
-    let joint = middle.round();
-    let s = if (joint - middle).abs() < 0.3 * (b - a) { joint } else { middle };
-    if s > a && s < b {
-        samples.insert(index + 1, EdgeSample { s, uv: run.uv(s), point: run.point(s) });
-    }
 }
 
 /// Positions of a boundary as closed polygons.

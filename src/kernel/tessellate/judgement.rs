@@ -1,0 +1,121 @@
+//! How far the surface over a triangle is from it: an estimate at a few points first, the proven bound where that does not
+//! decide.
+
+use glam::DVec3;
+
+use super::refine::{Refinement, Vertices};
+
+/// Triangles that look away from the surface and are higher than this part of the tolerance are divided.
+const FOLDED: f64 = 0.05;
+
+/// What points of the surface say of a triangle.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Estimate {
+    /// Distance from the surface.
+    pub(super) error: f64,
+    /// How far the surface is from it at the middles of its edges.
+    pub(super) shares: [f64; 3],
+    /// What is added for neighbours that lie under the images of its edges.
+    pub(super) sideways: f64,
+    pub(super) normal: DVec3,
+    /// Its longest edge.
+    pub(super) longest: f64,
+    /// Whether it looks away from the surface.
+    pub(super) folded: bool,
+}
+
+/// What is known of a triangle.
+#[derive(Default)]
+pub(super) struct Found {
+    /// Bound or estimate of its distance from the surface.
+    pub(super) error: f64,
+    /// How far the surface is from it at the middles of its edges.
+    pub(super) shares: [f64; 3],
+    /// The edge, and where on it (0 to 1), that crosses a crease which matters.
+    pub(super) crease: Option<(usize, f64)>,
+}
+
+impl Refinement<'_> {
+    /// Error of a triangle: what points of the surface say, and where that does not decide the bound.
+    pub(super) fn error(&self, vertices: &Vertices, triangle: [u32; 3], allowed: f64, prove: bool) -> Found {
+        if self.plane.is_some() {
+            return Found::default();
+        }
+        let estimate = self.estimate(vertices, triangle, allowed);
+        if !prove && estimate.error <= allowed {
+            return Found { error: estimate.error, shares: estimate.shares, crease: None };
+        }
+        self.proven(vertices, triangle, &estimate, allowed)
+    }
+
+    /// Error of a triangle at the middles of its edges and in its own.
+    ///
+    /// What counts is the distance from the triangle's plane. Where the image of an edge leaves the triangle sideways its
+    /// neighbour lies under it, in a plane turned by about the turn of the normal within the triangle.
+    pub(super) fn estimate(&self, vertices: &Vertices, triangle: [u32; 3], allowed: f64) -> Estimate {
+        let p = triangle.map(|n| vertices.on_surface[n as usize]);
+        let normals = triangle.map(|n| vertices.normals[n as usize]);
+        let edges = [0, 1, 2].map(|k| p[(k + 1) % 3] - p[k]);
+        let cross = edges[0].cross(-edges[2]);
+        let longest = edges.iter().map(|e| e.length_squared()).fold(0.0, f64::max);
+        let solid = cross.length_squared() > 1e-18 * longest * longest;
+        let normal = if solid {
+            cross.normalize_or_zero()
+        } else {
+            (normals[0] + normals[1] + normals[2]).normalize_or_zero()
+        };
+        // The sine of the largest turn, 1 beyond a right angle.
+        let sine = |n: DVec3| if n.dot(normal) > 0.0 { n.cross(normal).length() } else { 1.0 };
+        let turn = if solid { normals.map(sine).into_iter().fold(0.0, f64::max) } else { 0.0 };
+        let mut sideways = 0.0f64;
+        let mut asides = [0.0; 3];
+        let shares = [0, 1, 2].map(|k| {
+            let d = self.middle(vertices, triangle[k], triangle[(k + 1) % 3]) - p[k];
+            let up = d.dot(normal).abs();
+            if solid {
+                let out = edges[k].cross(normal).normalize_or_zero();
+                let aside = d.dot(out).abs();
+                asides[k] = aside;
+                sideways = sideways.max((2.0 * aside * turn).min((up * up + aside * aside).sqrt() - up));
+            }
+            up
+        });
+        let uv = triangle.map(|n| vertices.uvs[n as usize]);
+        let middle = (self.ground.point((uv[0] + uv[1] + uv[2]) / 3.0) - p[0]).dot(normal).abs();
+        let error = shares.into_iter().fold(middle, f64::max) + sideways;
+        let away = normal.dot(normals[0] + normals[1] + normals[2]) < 0.0;
+        if solid && away && cross.length() > FOLDED * allowed * longest.sqrt() {
+            // Folded over: the surface runs unevenly over its parameters here.
+            return Estimate {
+                error: error.max(2.0 * allowed),
+                shares: asides,
+                folded: true,
+                ..Estimate::default()
+            };
+        }
+        Estimate { error, shares, sideways, normal, longest: longest.sqrt(), folded: false }
+    }
+
+    /// What bounds say of a triangle that is `estimate`d to be within the tolerance.
+    pub(super) fn proven(
+        &self,
+        vertices: &Vertices,
+        triangle: [u32; 3],
+        estimate: &Estimate,
+        allowed: f64,
+    ) -> Found {
+        let Estimate { error, shares, sideways, normal, longest, folded } = *estimate;
+        let Some(flatness) = self.flatness.filter(|_| !folded) else {
+            return Found { error, shares, crease: None };
+        };
+        let uv = triangle.map(|n| vertices.uvs[n as usize]);
+        let crease = if error > 0.25 * allowed { flatness.crossed(&uv, 0.25 * allowed) } else { None };
+        // Beside a triangle smaller than the tolerance nothing is far.
+        if !(error <= allowed) || longest < 0.1 * allowed {
+            return Found { error, shares, crease };
+        }
+        let start = vertices.on_surface[triangle[0] as usize];
+        let proven = flatness.triangle(uv, (start, normal), allowed - sideways) + sideways;
+        Found { error: proven.max(error), shares, crease }
+    }
+}
