@@ -180,10 +180,12 @@ pub(super) fn draw(
     if let Some(ms) = frame.band_ms {
         pass.quality.measure_band(ms);
     }
+    // Those for motions are half a pixel off in a picture of half the resolution: what they are drawn at where they are of use.
+    let sharp = if surfaces == Surfaces::Auto { (size / 2).max(UVec2::ONE) } else { size };
     // Made ready at rest too, so that they are there when the next motion starts.
     let lacking = match pass.quality.wants_triangles(surfaces) {
         true if only_tessellated => Some(Vec::new()),
-        true => triangles.prepare(&faces, &LevelView::new(&frame.camera, size.to_array()), &waker),
+        true => triangles.prepare(&faces, &LevelView::new(&frame.camera, sharp.to_array()), &waker),
         false => None,
     };
     let are_shown = surfaces == Surfaces::Triangles && lacking.is_some();
