@@ -50,7 +50,8 @@ const COLUMNS: [&str; 12] = [
 pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
     writeln!(
         out,
-        "Point classification, ns per point, one thread, fastest of {RUNS} runs, chunk by chunk\n"
+        "Point classification, ns per point, one thread, fastest of {RUNS} runs, chunk by chunk\n\
+         (slabs: all of them made before; `hairline bench build` says what that takes)\n"
     )?;
     for shape in [Shape::Holes, Shape::RationalHoles, Shape::Blob, Shape::Hair] {
         for curves in [12, 100, 1000, 10_000] {
@@ -162,6 +163,7 @@ fn shape_sheet(shape: Shape, curves: usize) -> Sheet {
     let grid_times = measure(&points, |p| grid.classify(p));
     sheet.row(structure_row("grid", &points, &grid, (grid_times, bar, lists_bar), count));
     let slabs = SlabGrid::new(&set, &packed, &GridOptions::default());
+    slabs.complete();
     let slab_times = measure(&points, |p| slabs.classify(p));
     sheet.row(structure_row("slabs", &points, &slabs, (slab_times, bar, lists_bar), count));
     match (&lists, lists_times) {
@@ -194,6 +196,7 @@ fn model_sheet(model: &ModelRecord) -> Sheet {
     let points: Vec<Vec2> = (0..PER_FACE).map(|_| random.point().as_vec2()).collect();
     let lists: Vec<IntervalLists> = faces.iter().map(Face::interval_lists).collect();
     let slabs: Vec<SlabGrid> = faces.iter().map(Face::slab_grid).collect();
+    slabs.iter().for_each(SlabGrid::complete);
     let flattened: Vec<Flattened> = faces.iter().map(|f| Flattened::new(&normalised_loops(f))).collect();
     let total = faces.len() * PER_FACE;
     let curves: usize = faces.iter().map(|f| f.counts.bezier).sum();

@@ -2,8 +2,9 @@
 //! by one read.
 //!
 //! Takes no more memory than the default grid, is built in the same time, and answers as it does bit for bit. The slab of a
-//! cell is made when the cell was asked [`MOST_ASKED`] times: by then as much was spent on asking without it, so that few
-//! questions cost little, and many are answered in about half the time. Threads may ask at once: they make the same
+//! cell is made when the cell was asked [`MOST_ASKED`] times: by then as much was spent on asking without it. Until
+//! then its coarser cells answer slower than the default grid; many questions are answered in about half the time. Who
+//! will ask everywhere makes all slabs at once ([`SlabGrid::complete`]). Threads may ask at once: they make the same
 //! words, in whatever order.
 
 use std::sync::atomic::{AtomicU32, Ordering};
