@@ -1,6 +1,10 @@
 // Whether a point is inside the trim loops: the parity grid. Twin: kernel::trim::grid::classify and
 // kernel::trim::record, statement by statement but for `near`, for which the twin takes that some curve is listed.
-// The pass supplies load_trim_cell(i), load_trim_entry(i) -> u32 and load_trim_data(i) -> vec4f.
+// The pass supplies load_trim_cell(i), load_trim_entry(i) -> u32, load_trim_data(i) -> vec4f and load_trim_word(i, k) -> f32,
+// the k-th word from there on.
+//
+// Software drivers draw many pixels at a time and compute both sides of every branch: what can be left out is left out by
+// a loop, and loops ask at their end whether to go on, as one that asks first goes round once more for nothing.
 
 const GRID_NON_ZERO: u32 = 1u;
 const CELL_REFINED: u32 = 128u;
@@ -35,14 +39,6 @@ fn cross2(a: vec2f, b: vec2f) -> f32 {
     return a.x * b.y - a.y * b.x;
 }
 
-fn word_of(v: vec4f, index: u32) -> f32 {
-    return select(select(v.w, v.z, index == 2u), select(v.y, v.x, index == 0u), index < 2u);
-}
-
-fn record_word(address: u32, index: u32) -> f32 {
-    return word_of(load_trim_data(address + (index >> 2u)), index & 3u);
-}
-
 // Fat bounds of a polynomial cubic from its scaled inner points.
 fn cubic_bounds(q: vec4f, d: vec2f) -> vec2f {
     let e0 = q.xy;
@@ -61,20 +57,25 @@ fn cubic_point(q: vec4f, d: vec2f, t: f32) -> vec2f {
     return t * (s * (s * q.xy + t * q.zw) + t * t * d);
 }
 
-// Horner's scheme in scaled Bernstein form.
+// Horner's scheme in scaled Bernstein form, of degree 2 or more.
 fn curve_point(address: u32, d: vec2f, degree: u32, rational: bool, t: f32) -> vec2f {
     let s = 1.0 - t;
     var power = 1.0;
     var x = vec2f(0.0);
     var w = 1.0;
     var index = 5u;
-    for (var i = 1u; i < degree; i++) {
+    var i = 1u;
+    loop {
         power *= t;
-        x = x * s + power * vec2f(record_word(address, index), record_word(address, index + 1u));
+        x = x * s + power * vec2f(load_trim_word(address, index), load_trim_word(address, index + 1u));
         index += 2u;
         if (rational) {
-            w = w * s + power * record_word(address, index);
+            w = w * s + power * load_trim_word(address, index);
             index += 1u;
+        }
+        i++;
+        if (i >= degree) {
+            break;
         }
     }
     power *= t;
@@ -93,16 +94,8 @@ fn is_near(side: f32, bounds: vec2f, d: vec2f) -> bool {
     return side >= bounds.x - slack && side <= bounds.y + slack;
 }
 
-// Whether the segment's u at height v is larger than u; ends.y <= v < ends.w.
+// Whether the segment's u at height v is larger than u, for points in the box of its ends.
 fn crossing(address: u32, ends: vec4f, entry: u32, u: f32, v: f32) -> Crossing {
-    let left = min(ends.x, ends.z);
-    let right = max(ends.x, ends.z);
-    if (u < left) {
-        return Crossing(true, u >= left - 2.0 * ROUNDING_UV, 0u);
-    }
-    if (u >= right) {
-        return Crossing(false, u <= right + 2.0 * ROUNDING_UV, 0u);
-    }
     let p = vec2f(u, v) - ends.xy;
     let d = ends.zw - ends.xy;
     let degree = ((entry >> 4u) & 63u) + 1u;
@@ -196,25 +189,44 @@ fn classify(grid: GridHeader, u_in: f32, v_in: f32) -> Verdict {
     // Curves of the next cell may not be listed here.
     let border = min(vec2f(x, y) - vec2f(f32(column), f32(row)), vec2f(f32(column), f32(row)) + 1.0 - vec2f(x, y));
     var near = end > first && any(border < 4.0 * ROUNDING_UV * scale);
-    for (var e = first; e < min(end, first + MAX_ENTRIES); e++) {
-        let entry = load_trim_entry(grid.entry_base + e);
-        let address = grid.data_base + (entry >> 10u);
-        let ends = load_trim_data(address);
-        var value: bool;
-        if (v < ends.y) {
-            value = (entry & ENTRY_LO) != 0u;
-            near |= v >= ends.y - 2.0 * ROUNDING_UV;
-        } else if (v >= ends.w) {
-            value = (entry & ENTRY_HI) != 0u;
-            near |= v <= ends.w + 2.0 * ROUNDING_UV;
-        } else {
-            let c = crossing(address, ends, entry, u, v);
-            value = c.right;
-            near |= c.near;
-            evaluations += c.evaluations;
-        }
-        if (value) {
-            winding += select(1, -1, (entry & ENTRY_DOWN) != 0u);
+    let last = min(end, first + MAX_ENTRIES);
+    var e = first;
+    if (e < last) {
+        loop {
+            // On to the next curve that its ends do not tell about, so that few rounds look at one.
+            var entry = 0u;
+            var address = 0u;
+            var ends = vec4f(0.0);
+            var told = true;
+            loop {
+                entry = load_trim_entry(grid.entry_base + e);
+                address = grid.data_base + (entry >> 10u);
+                ends = load_trim_data(address);
+                e++;
+                let below = v < ends.y;
+                let above = v >= ends.w;
+                let left = min(ends.x, ends.z);
+                let right = max(ends.x, ends.z);
+                told = below || above || u < left || u >= right;
+                let aside = select(u < left, (entry & ENTRY_HI) != 0u, above);
+                let value = select(aside, (entry & ENTRY_LO) != 0u, below);
+                let beside = select(u <= right + 2.0 * ROUNDING_UV, u >= left - 2.0 * ROUNDING_UV, u < left);
+                let over = select(beside, v <= ends.w + 2.0 * ROUNDING_UV, above);
+                near |= told && select(over, v >= ends.y - 2.0 * ROUNDING_UV, below);
+                winding += select(0, select(1, -1, (entry & ENTRY_DOWN) != 0u), told && value);
+                if (!told || e >= last) {
+                    break;
+                }
+            }
+            if (!told) {
+                let c = crossing(address, ends, entry, u, v);
+                near |= c.near;
+                evaluations += c.evaluations;
+                winding += select(0, select(1, -1, (entry & ENTRY_DOWN) != 0u), c.right);
+            }
+            if (e >= last) {
+                break;
+            }
         }
     }
     let inside = select((winding & 1) != 0, winding != 0, (grid.flags & GRID_NON_ZERO) != 0u);

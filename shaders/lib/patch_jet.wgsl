@@ -21,19 +21,28 @@ fn patch_jet(first_point: u32, degree_u: u32, degree_v: u32, u: f32, v: f32) -> 
     var weight_low = 1.0;   // C(m, i) u^i of the low sum, m = degree_u - 1
     var weight_high = 0.0;  // C(m, i - 1) u^(i - 1) of the high sum
     var at = first_point;
-    for (var i = 0u; i <= degree_u; i++) {
+    // Loops that ask at their end: see classify.
+    var i = 0u;
+    loop {
         var left = load_point(at);
         var p = load_point(at + 1u);
         var right = p;
         at += 2u;
         var weight = 1.0;
-        for (var j = 1u; j < degree_v; j++) {
-            weight *= v * f32(degree_v - j) / f32(j);
-            let q = load_point(at);
-            at += 1u;
-            left = left * b + weight * p;
-            right = right * b + weight * q;
-            p = q;
+        var j = 1u;
+        if (j < degree_v) {
+            loop {
+                weight *= v * f32(degree_v - j) / f32(j);
+                let q = load_point(at);
+                at += 1u;
+                left = left * b + weight * p;
+                right = right * b + weight * q;
+                p = q;
+                j++;
+                if (j >= degree_v) {
+                    break;
+                }
+            }
         }
         let row = left * b + right * v;
         let row_dv = right - left;
@@ -43,6 +52,10 @@ fn patch_jet(first_point: u32, degree_u: u32, degree_v: u32, u: f32, v: f32) -> 
         high_dv = high_dv * a + weight_high * row_dv;
         weight_high = weight_low;
         weight_low *= u * (f32(degree_u) - 1.0 - f32(i)) / f32(i + 1u);
+        i++;
+        if (i > degree_u) {
+            break;
+        }
     }
     let du = f32(degree_u);
     let dv = f32(degree_v);

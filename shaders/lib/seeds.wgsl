@@ -122,17 +122,21 @@ fn conics_polish(c: Conics, start: vec2f, enough: f32) -> Candidate {
     var x = clamp(start, vec2f(-3.0), vec2f(3.0));
     var value = length(conics_value(c, x));
     var damping = 1.0;
-    for (var k = 0u; k < POLISH_STEPS; k++) {
-        if (value <= enough) {
-            break;
+    var k = 0u;
+    if (value > enough) {
+        loop {
+            let step = solve_2x2(conics_ds(c, x), conics_dt(c, x), -conics_value(c, x));
+            let next = clamp(x + damping * clamp(step, vec2f(-1.0), vec2f(1.0)), vec2f(-3.0), vec2f(3.0));
+            let next_value = length(conics_value(c, next));
+            let better = next_value < value;
+            x = select(x, next, better);
+            value = select(value, next_value, better);
+            damping = select(0.5 * damping, 1.0, better);
+            k++;
+            if (value <= enough || k >= POLISH_STEPS) {
+                break;
+            }
         }
-        let step = solve_2x2(conics_ds(c, x), conics_dt(c, x), -conics_value(c, x));
-        let next = clamp(x + damping * clamp(step, vec2f(-1.0), vec2f(1.0)), vec2f(-3.0), vec2f(3.0));
-        let next_value = length(conics_value(c, next));
-        let better = next_value < value;
-        x = select(x, next, better);
-        value = select(value, next_value, better);
-        damping = select(0.5 * damping, 1.0, better);
     }
     return Candidate(x, value);
 }
@@ -165,14 +169,16 @@ fn seeds(c: Conics, slack: f32) -> Seeds {
     let far = max(abs(fine.second.x), abs(fine.second.y)) > 4.0;
     var found = Seeds(0u, vec2f(0.0), vec2f(0.0));
     // A loop, since software drivers skip what a loop leaves out but not what a condition does.
-    for (var attempt = 0u; attempt < 4u; attempt++) {
-        if (found.count > 0u && (attempt > 1u || far)) {
-            break;
-        }
+    var attempt = 0u;
+    loop {
         let early = select(fine.second, fine.first, attempt == 0u);
         let late = select(vec2f(0.0), rough.first, attempt == 2u);
         let start = select(late, early, attempt < 2u);
         found = seeds_add(found, conics_polish(c, start, 0.25 * near), near);
+        attempt++;
+        if (attempt > 3u || (found.count > 0u && (attempt > 1u || far))) {
+            break;
+        }
     }
     return found;
 }

@@ -36,10 +36,6 @@ struct Visibility {
     @builtin(frag_depth) depth: f32,
 }
 
-fn view_axes() -> Axes {
-    return Axes(view.right.xyz, view.up.xyz, view.forward.xyz);
-}
-
 // A strip of 14 corners round the box, widened by an eighth of a pixel so that the
 // snapping of corners to sub-pixels opens no seams. The faces
 // turned away from the viewer are drawn: they cover the pixel from inside the box and behind the near
@@ -53,7 +49,7 @@ fn vertex(@builtin(vertex_index) vertex_index: u32, @builtin(instance_index) ins
     }
     let cell = cells[order[instance]];
     let face = faces[cell.face];
-    let axes = view_axes();
+    let axes = axes_of(view);
     let high = cell.origin_high - view.reference_high.xyz;
     let low = cell.origin_low - view.reference_low.xyz;
     let shift = axes_apply(axes, high + low);
@@ -66,11 +62,8 @@ fn vertex(@builtin(vertex_index) vertex_index: u32, @builtin(instance_index) ins
     let c = corner * half;
     let offset = c.x * cell.box_x.xyz + c.y * cell.box_y.xyz + c.z * cell.box_z.xyz;
     let p = centre + axes_apply(axes, offset);
-    let w = view.depth.z + view.depth.w * p.z;
-    let jitter = 2.0 * view.jitter / view.size * vec2f(1.0, -1.0);
-    let clip = vec4f(p.xy * view.clip_scale - jitter * w, view.depth.x + view.depth.y * p.z, w);
     var out: Proxy;
-    out.position = select(vec4f(0.0, 0.0, -1.0, 1.0), clip, (face.flags & FACE_VISIBLE) != 0u);
+    out.position = select(vec4f(0.0, 0.0, -1.0, 1.0), clip_place(view, p), (face.flags & FACE_VISIBLE) != 0u);
     let trimmed = (face.flags & FACE_TRIMMED) != 0u && (cell.flags & CELL_WHOLE) == 0u;
     out.ids = vec4u(cell.face, cell.first_point, cell.degrees, order[instance] << 1u | u32(trimmed));
     out.m00 = vec4f(axes_apply(axes, cell.m00) + shift, cell.residual);
@@ -81,15 +74,10 @@ fn vertex(@builtin(vertex_index) vertex_index: u32, @builtin(instance_index) ins
     out.m02 = axes_apply(axes, cell.m02);
     out.uv = vec4f(cell.uv_min, cell.uv_max);
     out.shift = shift;
-    let grid = face.grid;
-    out.grid_size = vec4u(grid.columns, grid.rows, bitcast<u32>(grid.scale_u), bitcast<u32>(grid.scale_v));
-    out.grid_base = vec4u(grid.cell_base, grid.entry_base, grid.data_base, grid.flags);
+    let grid = grid_words(face.grid);
+    out.grid_size = grid.size;
+    out.grid_base = grid.base;
     return out;
-}
-
-fn grid_header(in: Proxy) -> GridHeader {
-    return GridHeader(in.grid_size.x, in.grid_size.y, bitcast<f32>(in.grid_size.z), bitcast<f32>(in.grid_size.w),
-        in.grid_base.x, in.grid_base.y, in.grid_base.z, in.grid_base.w);
 }
 
 // Boxes are widened by this many pixels and this part of their size.
@@ -98,7 +86,7 @@ const BOX_SLACK: f32 = 2e-3;
 
 // The box of a cell, widened by what rounding and the tolerance of the solver may move a hit.
 fn cell_box(index: u32, shift: vec3f) -> ViewBox {
-    let axes = view_axes();
+    let axes = axes_of(view);
     let cell = cells[index];
     let centre = axes_apply(axes, cell.box_centre) + shift;
     let far = max(centre.z + cell.size, 0.0);
@@ -128,7 +116,7 @@ fn fragment(in: Proxy) -> Visibility {
     if (start.count == 0u) {
         discard;
     }
-    let axes = view_axes();
+    let axes = axes_of(view);
     var found = false;
     var evaluations = 0u;
     var curve_evaluations = 0u;
@@ -140,12 +128,11 @@ fn fragment(in: Proxy) -> Visibility {
     var normal = vec3f(0.0, 0.0, -1.0);
     var x = start.first;
     var branch = select(ANY, NEARER, start.count == 2u);
-    var going = true;
-    while (going) {
+    loop {
         let root = newton(ray, axes, piece, conics, view.pixel, x, branch);
         evaluations += root.evaluations;
         // One zero and none found: the surface may have two where the model sees one.
-        going = select(branch == NEARER, !root.converged, branch == ANY);
+        let going = select(branch == NEARER, !root.converged, branch == ANY);
         x = select(start.first, start.second, branch == NEARER);
         branch = select(NEARER, FARTHER, branch == NEARER);
         depth = (view.depth.x + view.depth.y * root.z) / (view.depth.z + view.depth.w * root.z);
@@ -154,14 +141,14 @@ fn fragment(in: Proxy) -> Visibility {
             uv = clamp(mix(in.uv.xy, in.uv.zw, 0.5 + 0.5 * root.x), vec2f(0.0), vec2f(BELOW_ONE));
             normal = root.normal;
             if (trim && (in.ids.w & 1u) != 0u) {
-                let verdict = kept(grid_header(in), uv);
+                let verdict = kept(grid_header(in.grid_size, in.grid_base), uv);
                 inside = verdict.inside;
                 curve_evaluations += verdict.evaluations;
             }
             found = inside || heat;
-            if (found) {
-                break;
-            }
+        }
+        if (found || !going) {
+            break;
         }
     }
     if (!found) {

@@ -1,5 +1,8 @@
 // Triangles of the untrimmed surfaces with exact trims per pixel (Schollmeyer & Froehlich 2009, figure 10).
 // Writes the same visibility buffer as the rays: (face slot + 1, u, v, normal or counts) and depth.
+//
+// Triangles that are kept whole, and all of them when nothing is trimmed, have entry points of their own: drivers that draw
+// many pixels at a time walk through trimming for each as soon as it is in the program.
 
 // The view, faces and trims are bound in `trims`.
 @group(0) @binding(5) var<storage, read> vertices: array<MeshVertex>;
@@ -8,53 +11,61 @@
 struct Corner {
     @builtin(position) position: vec4f,
     @location(0) uv: vec2f,
-    @location(1) normal: vec3f,                    // view axes
-    @location(2) @interpolate(flat) ids: vec2u,    // face slot, 1: trim
+    @location(1) normal: vec3f,                     // view axes
+    @location(2) @interpolate(flat) face: u32,      // slot
+}
+
+struct TrimmedCorner {
+    @builtin(position) position: vec4f,
+    @location(0) uv: vec2f,
+    @location(1) normal: vec3f,
+    @location(2) @interpolate(flat) ids: vec2u,     // face slot, 1: trim
+    @location(3) @interpolate(flat) grid_size: vec4u,
+    @location(4) @interpolate(flat) grid_base: vec4u,
+}
+
+fn corner(index: u32) -> Corner {
+    let v = vertices[index];
+    let origin = origins[v.face];
+    let p = place_in_view(view, origin.high, origin.low, v.position);
+    return Corner(clip_place(view, p), v.uv, axes_apply(axes_of(view), v.normal), v.face);
 }
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Corner {
-    let v = vertices[index];
-    let face = faces[v.face];
-    let axes = Axes(view.right.xyz, view.up.xyz, view.forward.xyz);
-    let origin = origins[v.face];
-    let high = origin.high - view.reference_high.xyz;
-    let low = origin.low - view.reference_low.xyz;
-    let p = axes_apply(axes, high + low) + axes_apply(axes, v.position);
-    let w = view.depth.z + view.depth.w * p.z;
-    let jitter = 2.0 * view.jitter / view.size * vec2f(1.0, -1.0);
-    var out: Corner;
-    out.position = vec4f(p.xy * view.clip_scale - jitter * w, view.depth.x + view.depth.y * p.z, w);
-    out.uv = v.uv;
-    out.normal = axes_apply(axes, v.normal);
-    let trimmed = (face.flags & FACE_TRIMMED) != 0u && (v.flags & MESH_WHOLE) == 0u;
-    out.ids = vec2u(v.face, u32(trimmed));
-    return out;
+    return corner(index);
 }
 
-fn words(in: Corner, uv: vec2f, verdict: Verdict) -> vec4u {
+@vertex
+fn vertex_trimmed(@builtin(vertex_index) index: u32) -> TrimmedCorner {
+    let plain = corner(index);
+    let face = faces[plain.face];
+    let trimmed = (face.flags & FACE_TRIMMED) != 0u && (vertices[index].flags & MESH_WHOLE) == 0u;
+    let grid = grid_words(face.grid);
+    return TrimmedCorner(plain.position, plain.uv, plain.normal, vec2u(plain.face, u32(trimmed)), grid.size, grid.base);
+}
+
+fn words(face: u32, normal: vec3f, uv: vec2f, verdict: Verdict) -> vec4u {
     let heat = (view.flags & CAST_HEAT) != 0u;
-    let normal = in.normal / max(length(in.normal), 1e-37);
-    let word = select(pack_normal(normal), pack_heat(normal, verdict.evaluations, verdict.inside, 0u), heat);
-    return vec4u(in.ids.x + 1u, bitcast<u32>(uv.x), bitcast<u32>(uv.y), word);
+    let unit = normal / max(length(normal), 1e-37);
+    let word = select(pack_normal(unit), pack_heat(unit, verdict.evaluations, verdict.inside, 0u), heat);
+    return vec4u(face + 1u, bitcast<u32>(uv.x), bitcast<u32>(uv.y), word);
 }
 
 @fragment
 fn fragment(in: Corner) -> @location(0) vec4u {
+    return words(in.face, in.normal, clamp(in.uv, vec2f(0.0), vec2f(BELOW_ONE)), Verdict(true, 0u, false));
+}
+
+@fragment
+fn fragment_trimmed(in: TrimmedCorner) -> @location(0) vec4u {
     let uv = clamp(in.uv, vec2f(0.0), vec2f(BELOW_ONE));
     var verdict = Verdict(true, 0u, false);
     if (in.ids.y != 0u) {
-        verdict = kept(faces[in.ids.x].grid, uv);
+        verdict = kept(grid_header(in.grid_size, in.grid_base), uv);
     }
     if (!verdict.inside && (view.flags & CAST_HEAT) == 0u) {
         discard;
     }
-    return words(in, uv, verdict);
-}
-
-// For triangles that are kept whole, and all of them when nothing is trimmed: a pipeline of its own, since drivers that
-// draw many pixels at a time walk through trimming for each as soon as it is in the program.
-@fragment
-fn fragment_whole(in: Corner) -> @location(0) vec4u {
-    return words(in, clamp(in.uv, vec2f(0.0), vec2f(BELOW_ONE)), Verdict(true, 0u, false));
+    return words(in.ids.x, in.normal, uv, verdict);
 }

@@ -6,9 +6,14 @@
 @group(0) @binding(3) var<storage, read> faces: array<FaceHeader>;
 @group(0) @binding(4) var raw: texture_2d<u32>;   // before fat lines; else the same
 
+// What a pipeline is made without. PLAIN: surfaces in their own colours only, no difference; EDGES: edges if asked for.
+override PLAIN: bool = false;
+override EDGES: bool = true;
+
 // Wider lines are cut to this.
 const MOST_EDGE_PIXELS: i32 = 4;
 
+// As far away as can be: of pixels without a surface none is drawn.
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     let corner = vec2f(f32((index << 1u) & 2u), f32(index & 2u));
@@ -58,14 +63,16 @@ fn edge_to(here: vec4u, z: f32, p: vec3f, n: vec3f, pixel: vec2i, step: vec2i) -
 
 // How much of the pixel a line covers that runs along an edge, on the side that draws it.
 fn edge_cover(here: vec4u, z: f32, p: vec3f, n: vec3f, pixel: vec2i) -> f32 {
-    for (var k = 1; k <= MOST_EDGE_PIXELS; k++) {
-        let cover = clamp(look.edge_width - f32(k - 1), 0.0, 1.0);
-        if (cover <= 0.0) {
-            break;
-        }
+    // Loops that ask at their end: see classify.
+    var k = 1;
+    loop {
         if (edge_to(here, z, p, n, pixel, vec2i(k, 0)) || edge_to(here, z, p, n, pixel, vec2i(-k, 0)) ||
             edge_to(here, z, p, n, pixel, vec2i(0, k)) || edge_to(here, z, p, n, pixel, vec2i(0, -k))) {
-            return cover;
+            return clamp(look.edge_width - f32(k - 1), 0.0, 1.0);
+        }
+        k++;
+        if (k > MOST_EDGE_PIXELS || look.edge_width <= f32(k - 1)) {
+            break;
         }
     }
     return 0.0;
@@ -83,19 +90,20 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let ray = ray_at(position.xy + look.jitter);
     let p = ray_point(ray, z);
     let eye = -normalize(vec3f(ray.slope, 1.0));
-    let heat = look.mode == MODE_HEAT;
-    let deviation = look.mode == MODE_DEVIATION;
+    let mode = select(look.mode, MODE_SHADED, PLAIN);
+    let heat = mode == MODE_HEAT;
+    let deviation = mode == MODE_DEVIATION;
     var n = select(unpack_normal(here.w), unpack_heat_normal(here.w), heat || deviation);
     let outside = (dot(n, eye) >= 0.0) != ((face.flags & FACE_REVERSED) != 0u);
     n = select(-n, n, dot(n, eye) >= 0.0);
     var base = face.colour;
-    if (look.mode == MODE_FACES) {
+    if (mode == MODE_FACES) {
         base = face_palette(face.number);
     }
-    if (look.mode == MODE_UV) {
+    if (mode == MODE_UV) {
         base = uv_board(vec2f(bitcast<f32>(here.y), bitcast<f32>(here.z)));
     }
-    if (look.mode == MODE_SHADED && !outside) {
+    if (mode == MODE_SHADED && !outside) {
         base = inside_tint(base);
     }
     if (heat) {
@@ -111,10 +119,10 @@ fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
         base = mix(base, look.hovered.rgb, look.hovered.a);
     }
     var colour = lit(base, n, eye);
-    if (look.edges != 0u) {
+    if (EDGES && look.edges != 0u) {
         colour = mix(colour, look.edge.rgb, look.edge.a * edge_cover(here, z, p, n, pixel));
     }
-    if (look.difference != 0u) {
+    if (!PLAIN && look.difference != 0u) {
         colour = difference_colour(colour, any(textureLoad(raw, pixel, 0) != here));
     }
     return vec4f(colour, 1.0);

@@ -24,14 +24,10 @@ fn vertex(@builtin(vertex_index) index: u32) -> Corner {
     let a = vertices[corners[first]].position;
     let b = vertices[corners[first + 1u]].position;
     let c = vertices[corners[first + 2u]].position;
-    let axes = Axes(view.right.xyz, view.up.xyz, view.forward.xyz);
-    let high = part.high - view.reference_high.xyz;
-    let low = part.low - view.reference_low.xyz;
-    let p = axes_apply(axes, high + low) + axes_apply(axes, v.position);
-    let w = view.depth.z + view.depth.w * p.z;
-    let jitter = 2.0 * view.jitter / view.size * vec2f(1.0, -1.0);
+    let axes = axes_of(view);
+    let p = place_in_view(view, part.high, part.low, v.position);
     var out: Corner;
-    out.position = vec4f(p.xy * view.clip_scale - jitter * w, view.depth.x + view.depth.y * p.z, w);
+    out.position = clip_place(view, p);
     out.uv = v.uv;
     out.normal = axes_apply(axes, v.normal);
     out.relative = p;

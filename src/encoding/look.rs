@@ -30,6 +30,9 @@ pub struct Look {
 }
 
 impl Look {
+    /// `mode` of surfaces in their own colours.
+    pub const SHADED: u32 = 0;
+
     /// The look of one sample seen by `view`.
     pub fn new(view: &View, mode: DisplayMode, edges: EdgeStyle, theme: Theme) -> Self {
         let (background_top, background_bottom, edge) = match theme {
@@ -49,7 +52,7 @@ impl Look {
             size: view.size,
             depth: view.depth,
             mode: match mode {
-                DisplayMode::Shaded | DisplayMode::Untrimmed => 0,
+                DisplayMode::Shaded | DisplayMode::Untrimmed => Self::SHADED,
                 DisplayMode::Faces => 1,
                 DisplayMode::Uv => 2,
                 DisplayMode::Heat => 3,

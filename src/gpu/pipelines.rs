@@ -1,4 +1,4 @@
-//! Pipelines and bind-group layouts of the three passes.
+//! Pipelines and bind-group layouts of the passes.
 
 use super::shaders;
 use super::targets::{DEPTH_FORMAT, SUM_FORMAT, VISIBILITY_FORMAT};
@@ -13,13 +13,11 @@ pub struct Pass {
     pub layout: wgpu::BindGroupLayout,
 }
 
-/// All pipelines.
+/// The pipelines that every picture needs; others are made when first asked for.
 #[derive(Debug)]
 pub struct Pipelines {
     /// Casts rays.
     pub cast: Pass,
-    /// Shades, adding to the sum.
-    pub resolve: Pass,
     /// Presents with depth.
     pub present: Pass,
     /// Presents colour only.
@@ -58,12 +56,38 @@ const fn texture(sample_type: wgpu::TextureSampleType) -> wgpu::BindingType {
 struct Recipe<'a> {
     label: &'a str,
     source: &'a str,
+    /// Entry points.
+    vertex: &'a str,
     fragment: &'a str,
+    /// Values of the shader's overridable constants.
+    constants: &'a [(&'a str, f64)],
     bindings: &'a [wgpu::BindingType],
     target: wgpu::ColorTargetState,
-    depth: Option<wgpu::CompareFunction>,
+    /// How depths are compared, and whether they are written.
+    depth: Option<(wgpu::CompareFunction, bool)>,
     /// Triangle strips, and which of their sides are left out.
     strip: Option<Option<wgpu::Face>>,
+}
+
+impl<'a> Recipe<'a> {
+    /// Triangles, both sides of which are seen, with depth into the visibility buffer: the nearest stays.
+    fn visibility(label: &'a str, source: &'a str, bindings: &'a [wgpu::BindingType]) -> Self {
+        Self {
+            label,
+            source,
+            vertex: "vertex",
+            fragment: "fragment",
+            constants: &[],
+            bindings,
+            target: unblended(VISIBILITY_FORMAT),
+            depth: Some((wgpu::CompareFunction::Greater, true)),
+            strip: None,
+        }
+    }
+}
+
+fn unblended(format: wgpu::TextureFormat) -> wgpu::ColorTargetState {
+    wgpu::ColorTargetState { format, blend: None, write_mask: wgpu::ColorWrites::ALL }
 }
 
 impl Pipelines {
@@ -73,13 +97,6 @@ impl Pipelines {
         cast_bindings.extend([STORAGE; 7]);
         cast_bindings.push(WRITABLE);
         let look = uniform(size_of::<Look>());
-        let add = wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::One,
-            dst_factor: wgpu::BlendFactor::One,
-            operation: wgpu::BlendOperation::Add,
-        };
-        let unblended =
-            |format| wgpu::ColorTargetState { format, blend: None, write_mask: wgpu::ColorWrites::ALL };
         let over = wgpu::ColorTargetState {
             blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
             ..unblended(format)
@@ -97,7 +114,9 @@ impl Pipelines {
         let present = |fragment, target, depth| Recipe {
             label: "present",
             source: shaders::PRESENT,
+            vertex: "vertex",
             fragment,
+            constants: &[],
             bindings: &present_bindings,
             target,
             depth,
@@ -107,43 +126,69 @@ impl Pipelines {
             cast: build(
                 device,
                 &Recipe {
-                    label: "cast",
-                    source: shaders::CAST,
-                    fragment: "fragment",
-                    bindings: &cast_bindings,
-                    target: unblended(VISIBILITY_FORMAT),
-                    depth: Some(wgpu::CompareFunction::Greater),
                     strip: Some(Some(wgpu::Face::Front)),
-                },
-            ),
-            resolve: build(
-                device,
-                &Recipe {
-                    label: "resolve",
-                    source: shaders::RESOLVE,
-                    fragment: "fragment",
-                    bindings: &[
-                        look,
-                        texture(wgpu::TextureSampleType::Uint),
-                        texture(wgpu::TextureSampleType::Depth),
-                        STORAGE,
-                        texture(wgpu::TextureSampleType::Uint),
-                    ],
-                    target: wgpu::ColorTargetState {
-                        blend: Some(wgpu::BlendState { color: add, alpha: add }),
-                        ..unblended(SUM_FORMAT)
-                    },
-                    depth: None,
-                    strip: None,
+                    ..Recipe::visibility("cast", shaders::CAST, &cast_bindings)
                 },
             ),
             present: build(
                 device,
-                &present(present_fragment, over.clone(), Some(wgpu::CompareFunction::GreaterEqual)),
+                &present(present_fragment, over.clone(), Some((wgpu::CompareFunction::GreaterEqual, true))),
             ),
             present_flat: build(device, &present(flat_fragment, unblended(format), None)),
         }
     }
+}
+
+/// What shading may leave out of its program. Drivers that compute both sides of every branch would pay for all of it at
+/// each pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Shading {
+    /// Only surfaces in their own colours: no other mode and no difference.
+    pub plain: bool,
+    /// Edges are drawn.
+    pub edges: bool,
+}
+
+impl Shading {
+    /// Position in a list of all kinds.
+    pub fn index(self) -> usize {
+        usize::from(self.plain) + 2 * usize::from(self.edges)
+    }
+}
+
+/// The pipeline that shades, adding to the sum. Only pixels that show a surface: their depth is more than that of the
+/// triangle drawn, 0.
+pub(super) fn resolve(device: &wgpu::Device, shading: Shading) -> Pass {
+    let add = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Add,
+    };
+    let constants =
+        [("PLAIN", f64::from(u8::from(shading.plain))), ("EDGES", f64::from(u8::from(shading.edges)))];
+    build(
+        device,
+        &Recipe {
+            label: "resolve",
+            source: shaders::RESOLVE,
+            vertex: "vertex",
+            fragment: "fragment",
+            constants: &constants,
+            bindings: &[
+                uniform(size_of::<Look>()),
+                texture(wgpu::TextureSampleType::Uint),
+                texture(wgpu::TextureSampleType::Depth),
+                STORAGE,
+                texture(wgpu::TextureSampleType::Uint),
+            ],
+            target: wgpu::ColorTargetState {
+                blend: Some(wgpu::BlendState { color: add, alpha: add }),
+                ..unblended(SUM_FORMAT)
+            },
+            depth: Some((wgpu::CompareFunction::Less, false)),
+            strip: None,
+        },
+    )
 }
 
 /// The pipeline that fills holes in a copy of the visibility buffer.
@@ -151,65 +196,28 @@ pub(super) fn conceal(device: &wgpu::Device) -> Pass {
     let mut bindings = vec![uniform(size_of::<View>())];
     bindings.extend([STORAGE; 5]);
     bindings.extend([texture(wgpu::TextureSampleType::Uint), texture(wgpu::TextureSampleType::Depth)]);
-    build(
-        device,
-        &Recipe {
-            label: "conceal",
-            source: shaders::CONCEAL,
-            fragment: "fragment",
-            bindings: &bindings,
-            target: wgpu::ColorTargetState {
-                format: VISIBILITY_FORMAT,
-                blend: None,
-                write_mask: wgpu::ColorWrites::ALL,
-            },
-            depth: Some(wgpu::CompareFunction::Greater),
-            strip: Some(None),
-        },
-    )
+    let recipe = Recipe::visibility("conceal", shaders::CONCEAL, &bindings);
+    build(device, &Recipe { strip: Some(None), ..recipe })
 }
 
-/// A pipeline that draws triangles into the visibility buffer, with a fragment stage that trims or one that does not; both
-/// sides of a surface are seen.
+/// A pipeline that draws triangles of untrimmed surfaces, with stages that trim or ones that do not.
 pub(super) fn mesh(device: &wgpu::Device, trims: bool) -> Pass {
-    build(
-        device,
-        &Recipe {
-            label: if trims { "mesh trimmed" } else { "mesh whole" },
-            source: shaders::MESH,
-            fragment: if trims { "fragment" } else { "fragment_whole" },
-            bindings: &super::mesh::bindings(),
-            target: wgpu::ColorTargetState {
-                format: VISIBILITY_FORMAT,
-                blend: None,
-                write_mask: wgpu::ColorWrites::ALL,
-            },
-            depth: Some(wgpu::CompareFunction::Greater),
-            strip: None,
-        },
-    )
+    let bindings = super::mesh::bindings();
+    let whole = Recipe::visibility("mesh", shaders::MESH, &bindings);
+    let trimmed = Recipe {
+        label: "mesh trimmed",
+        vertex: "vertex_trimmed",
+        fragment: "fragment_trimmed",
+        ..Recipe::visibility("mesh", shaders::MESH, &bindings)
+    };
+    build(device, if trims { &trimmed } else { &whole })
 }
 
-/// The pipeline that draws the triangles of a tessellation; both sides are seen.
+/// The pipeline that draws the triangles of a tessellation.
 pub(super) fn tessellation(device: &wgpu::Device) -> Pass {
     let mut bindings = vec![uniform(size_of::<View>())];
     bindings.extend([STORAGE; 4]);
-    build(
-        device,
-        &Recipe {
-            label: "tessellation",
-            source: shaders::TESSELLATION,
-            fragment: "fragment",
-            bindings: &bindings,
-            target: wgpu::ColorTargetState {
-                format: VISIBILITY_FORMAT,
-                blend: None,
-                write_mask: wgpu::ColorWrites::ALL,
-            },
-            depth: Some(wgpu::CompareFunction::Greater),
-            strip: None,
-        },
-    )
+    build(device, &Recipe::visibility("tessellation", shaders::TESSELLATION, &bindings))
 }
 
 fn build(device: &wgpu::Device, recipe: &Recipe) -> Pass {
@@ -254,14 +262,14 @@ fn build(device: &wgpu::Device, recipe: &Recipe) -> Pass {
         layout: Some(&pipeline_layout),
         vertex: wgpu::VertexState {
             module: &module,
-            entry_point: Some("vertex"),
+            entry_point: Some(recipe.vertex),
             compilation_options: Default::default(),
             buffers: &[],
         },
         primitive,
-        depth_stencil: recipe.depth.map(|compare| wgpu::DepthStencilState {
+        depth_stencil: recipe.depth.map(|(compare, write)| wgpu::DepthStencilState {
             format: DEPTH_FORMAT,
-            depth_write_enabled: Some(true),
+            depth_write_enabled: Some(write),
             depth_compare: Some(compare),
             stencil: Default::default(),
             bias: Default::default(),
@@ -270,7 +278,10 @@ fn build(device: &wgpu::Device, recipe: &Recipe) -> Pass {
         fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some(recipe.fragment),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: recipe.constants,
+                ..Default::default()
+            },
             targets: &[Some(recipe.target.clone())],
         }),
         multiview_mask: None,

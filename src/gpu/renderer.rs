@@ -8,7 +8,7 @@ use super::attachments::{full_screen, group};
 use super::buffers::{SceneBuffers, Uploaded};
 use super::casting::nearest_buffer;
 use super::mesh::MeshPass;
-use super::pipelines::Pipelines;
+use super::pipelines::{self, Pass, Pipelines, Shading};
 use super::ribbons::RibbonPass;
 use super::targets::{Sum, Targets};
 use super::tessellation::Tessellated;
@@ -39,6 +39,8 @@ const SLOT_BYTES: u64 = 512;
 #[derive(Debug)]
 pub struct Renderer {
     pub(super) pipelines: Pipelines,
+    /// Those that shade, by kind, made when first needed. Bind groups of one fit all.
+    shading: [Option<Pass>; 4],
     pub(super) buffers: SceneBuffers,
     pub(super) uniforms: wgpu::Buffer,
     pub(super) next_slot: u64,
@@ -83,6 +85,7 @@ impl Renderer {
         });
         Self {
             pipelines: Pipelines::new(device, format),
+            shading: Default::default(),
             buffers: SceneBuffers::new(device),
             uniforms,
             next_slot: 0,
@@ -146,15 +149,27 @@ impl Renderer {
         let mut look = Look::new(&self.view, mode, edges, Theme::Transparent);
         look.difference = u32::from(self.difference);
         let slot = self.write_uniform(queue, bytemuck::bytes_of(&look));
+        let shading =
+            Shading { plain: look.mode == Look::SHADED && look.difference == 0, edges: edges.visible };
+        let kept = self.shading[shading.index()].take();
+        let resolve = kept.unwrap_or_else(|| pipelines::resolve(device, shading));
         if self.resolve_group.is_none() {
-            self.resolve_group = Some(self.make_resolve_group(device));
+            self.resolve_group = Some(self.make_resolve_group(device, &resolve.layout));
         }
         let load = if first { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
         self.samples = if first { 1 } else { self.samples + 1 };
-        let mut pass = full_screen(encoder, "shade", &self.sum.view, load, None);
-        pass.set_pipeline(&self.pipelines.resolve.pipeline);
+        // Read only: the program reads the same texture.
+        let depth = wgpu::RenderPassDepthStencilAttachment {
+            view: &self.shown().depth_view,
+            depth_ops: None,
+            stencil_ops: None,
+        };
+        let mut pass = full_screen(encoder, "shade", &self.sum.view, load, Some(depth));
+        pass.set_pipeline(&resolve.pipeline);
         pass.set_bind_group(0, &self.resolve_group, &[slot]);
         pass.draw(0..3, 0..1);
+        drop(pass);
+        self.shading[shading.index()] = Some(resolve);
     }
 
     /// Puts the sum over the background into `target`. With `depth` the surfaces are depth tested and
@@ -229,7 +244,7 @@ impl Renderer {
         })
     }
 
-    fn make_resolve_group(&self, device: &wgpu::Device) -> wgpu::BindGroup {
+    fn make_resolve_group(&self, device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wgpu::BindGroup {
         let resources = vec![
             self.uniform_binding(size_of::<Look>()),
             wgpu::BindingResource::TextureView(&self.shown().visibility_view),
@@ -237,7 +252,7 @@ impl Renderer {
             self.buffers.faces().as_entire_binding(),
             wgpu::BindingResource::TextureView(&self.targets.visibility_view),
         ];
-        group(device, "shade", &self.pipelines.resolve.layout, resources)
+        group(device, "shade", layout, resources)
     }
 
     fn make_present_group(&self, device: &wgpu::Device) -> wgpu::BindGroup {

@@ -13,6 +13,7 @@ pub const CAST: &str = pieces!(
     "layout/cell.wgsl",
     "layout/face.wgsl",
     "lib/axes.wgsl",
+    "lib/place.wgsl",
     "lib/pack.wgsl",
     "lib/ray.wgsl",
     "lib/patch_jet.wgsl",
@@ -29,6 +30,7 @@ pub const MESH: &str = pieces!(
     "layout/face.wgsl",
     "layout/mesh.wgsl",
     "lib/axes.wgsl",
+    "lib/place.wgsl",
     "lib/pack.wgsl",
     "lib/classify.wgsl",
     "pass/trims.wgsl",
@@ -56,6 +58,7 @@ pub const TESSELLATION: &str = pieces!(
     "layout/mesh.wgsl",
     "layout/tessellation.wgsl",
     "lib/axes.wgsl",
+    "lib/place.wgsl",
     "lib/pack.wgsl",
     "pass/tessellation.wgsl",
 );

@@ -105,4 +105,5 @@ fn constants_match() {
     assert_eq!(find(&resolve, "FACE_SELECTED"), FaceHeader::SELECTED);
     assert_eq!(find(&resolve, "FACE_HOVERED"), FaceHeader::HOVERED);
     assert_eq!(find(&resolve, "FACE_REVERSED"), FaceHeader::REVERSED);
+    assert_eq!(find(&resolve, "MODE_SHADED"), Look::SHADED);
 }
