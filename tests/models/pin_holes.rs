@@ -56,6 +56,14 @@ impl Part {
         Self { faces, packed, inspection, pairs, ribbons, caster }
     }
 
+    /// Edges with two sides, widest gaps first.
+    fn worst_edges(&self) -> Vec<&Edge> {
+        let mut worst: Vec<&Edge> =
+            self.inspection.edges().map(|(_, e)| e).filter(|e| e.uses.len() == 2).collect();
+        worst.sort_by(|a, b| largest_gap(b).total_cmp(&largest_gap(a)));
+        worst
+    }
+
     /// The same from a side: `by` turns the view about the edge and along it, and the picture.
     fn tilted<'a>(&self, edge: &'a Edge, width_px: f64, by: [f64; 4]) -> Option<Closeup<'a>> {
         let gap = edge.gap?;
@@ -151,6 +159,11 @@ impl Part {
     }
 }
 
+/// Largest distance of the sides of an edge.
+fn largest_gap(edge: &Edge) -> f64 {
+    edge.gap.map_or(0.0, |g| g.maximum)
+}
+
 impl Closeup<'_> {
     /// The ray through a place in pixels, from the plane in which the edge lies.
     fn ray(&self, x: f64, y: f64) -> Ray {
@@ -169,13 +182,9 @@ fn changed(a: &VisibilityBuffer, b: &VisibilityBuffer) -> Vec<[u32; 2]> {
 fn holes_of_a_real_part_are_found_and_filled() {
     let Some(models) = truth::models() else { return };
     let part = Part::new(&std::fs::read(models.join("files/gpucast_part.igs")).unwrap());
-    let gap = |e: &Edge| e.gap.map_or(0.0, |g| g.maximum);
-    let mut worst: Vec<&Edge> =
-        part.inspection.edges().map(|(_, e)| e).filter(|e| e.uses.len() == 2).collect();
-    worst.sort_by(|a, b| gap(b).total_cmp(&gap(a)));
     let (mut sure, mut missed, mut invented, mut compared) = (0, 0, 0, 0);
     let (mut raw_holes, mut left, mut strays, mut thick) = ([0; WIDTHS.len()], vec![], 0, vec![]);
-    for edge in worst.into_iter().take(EDGES) {
+    for edge in part.worst_edges().into_iter().take(EDGES) {
         for (k, width) in WIDTHS.into_iter().enumerate() {
             let Some(closeup) = part.closeup(edge, width) else { continue };
             let raw = visibility::draw(&part.packed, &closeup.view);
@@ -201,7 +210,8 @@ fn holes_of_a_real_part_are_found_and_filled() {
             for (x, y) in (0..SIZE * SIZE).map(|p| (p % SIZE, p / SIZE)) {
                 let (fx, fy) = (f64::from(x), f64::from(y));
                 let here = found.iter().any(|h| h.pixel == [x, y]);
-                let close = part.beside(&closeup, &closeup.ray(fx, fy)) <= gap(edge) + 0.5 * closeup.pixel;
+                let close =
+                    part.beside(&closeup, &closeup.ray(fx, fy)) <= largest_gap(edge) + 0.5 * closeup.pixel;
                 let border = x < 7 || y < 7 || x + 7 >= SIZE || y + 7 >= SIZE;
                 if border || !(close || here) {
                     continue;
@@ -241,13 +251,9 @@ fn randoms(mut state: u64) -> impl FnMut() -> f64 {
 fn holes_of_a_real_part_are_filled_from_whatever_side() {
     let Some(models) = truth::models() else { return };
     let part = Part::new(&std::fs::read(models.join("files/gpucast_part.igs")).unwrap());
-    let gap = |e: &Edge| e.gap.map_or(0.0, |g| g.maximum);
-    let mut worst: Vec<&Edge> =
-        part.inspection.edges().map(|(_, e)| e).filter(|e| e.uses.len() == 2).collect();
-    worst.sort_by(|a, b| gap(b).total_cmp(&gap(a)));
     let mut random = randoms(0x9E37_79B9_7F4A_7C15);
     let (mut all, mut strays, mut left) = (0, 0, vec![]);
-    for (number, edge) in worst.into_iter().take(10).enumerate() {
+    for (number, edge) in part.worst_edges().into_iter().take(10).enumerate() {
         for (width, views) in [(1.0, 1), (3.0, 1), (20.0, 3)] {
             for _ in 0..views {
                 let by = [1.2 * random(), 1.2 * random(), random(), random()];

@@ -122,16 +122,7 @@ mod tests {
         let knots = || KnotVector::bezier(1, 0.0, 1.0).expect("valid test data");
         let points = vec![corner, corner + 10.0 * y, corner + 10.0 * x, corner + 10.0 * (x + y)];
         let surface = NurbsSurface::new(knots(), knots(), points, vec![1.0; 4]).expect("valid test data");
-        FaceRecord {
-            name: None,
-            source: None,
-            colour: None,
-            layer: None,
-            part: None,
-            surface,
-            loops: Vec::new(),
-            reversed: false,
-        }
+        FaceRecord::new(surface, Vec::new())
     }
 
     #[test]
