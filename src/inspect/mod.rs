@@ -29,7 +29,7 @@ pub use face_curves::lift;
 pub use gap::{Gap, GapEnd, GapSense};
 pub use inspection::Inspection;
 pub use lifted::LiftedCurve;
-pub use pinholes::{EdgePairs, HoleClass, HoleScene, PinHole, pin_holes};
+pub use pinholes::{EdgePairs, FINEST_PIXEL, HoleClass, HoleScene, PinHole, pin_holes};
 pub use quantity::Length;
 pub use ribbons::ribbons;
 pub use scale::Scale;

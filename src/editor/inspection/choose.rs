@@ -11,12 +11,10 @@ use crate::editor::selection::{SelectMode, SelectRequest};
 use crate::editor::settings::Settings;
 use crate::editor::tools::{Action, CommandRequest};
 use crate::editor::viewport::Viewport;
-use crate::inspect::{Edge, EdgeKey, GapSense, Inspection};
+use crate::inspect::{Edge, EdgeKey, FINEST_PIXEL, GapSense, Inspection};
 
 /// How wide the tour shows a gap, logical pixels.
 const GAP_PX: f64 = 20.0;
-/// Share of an edge's length that is seen at least: no closer than single precision of the picture allows.
-const CLOSEST: f64 = 2e-5;
 
 /// The edge looked at.
 #[derive(Resource, Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -95,8 +93,11 @@ pub(super) fn serve(
         let Some(edge) = inspection.edge(&key) else { continue };
         let faces = edge.faces().into_iter().filter_map(|f| findings.face(f)).collect();
         select.write(SelectRequest { faces, mode: SelectMode::Replace });
-        if fly && let Some(look) = approach(inspection, edge, f64::from(viewport.size.y)) {
+        if fly && let Some((look, held)) = approach(inspection, edge, f64::from(viewport.size.y)) {
             camera.write(look);
+            if held {
+                notices.info("No nearer: the picture is not precise enough to show this gap wider".into());
+            }
         }
     }
 }
@@ -115,21 +116,25 @@ fn step(rows: &[Row], from: Option<EdgeKey>, forward: bool, tolerance: f64) -> O
     Some(defects[next])
 }
 
-/// The view in which the gap is about [`GAP_PX`] wide: along the normal, from the side where the sides are at
+/// The view in which the gap is about [`GAP_PX`] wide, or less where that is closer than the picture is precise: along the normal, from the side where the sides are at
 /// different heights. Edges without a gap are shown whole.
-fn approach(inspection: &Inspection, edge: &Edge, height_px: f64) -> Option<CameraRequest> {
+/// The flag tells of that.
+fn approach(inspection: &Inspection, edge: &Edge, height_px: f64) -> Option<(CameraRequest, bool)> {
     let first = edge.uses.first()?;
     let curve = inspection.curve(&first.curve)?;
-    let (point, t, size) = match &edge.gap {
+    let (point, t, size, held) = match &edge.gap {
         Some(gap) if gap.maximum > 0.0 => {
             let [a, b] = &gap.between;
             let t = if a.side == 0 { a.t } else { b.t };
             let wanted = gap.maximum * height_px / GAP_PX;
-            (a.point.midpoint(b.point), t, wanted.max(CLOSEST * edge.length()))
+            let sides = edge.uses.iter().filter_map(|side| inspection.curve(&side.curve));
+            let face_size = sides.map(|side| side.ground().size()).fold(0.0, f64::max);
+            let least = FINEST_PIXEL * face_size * height_px;
+            (a.point.midpoint(b.point), t, wanted.max(least), wanted < least)
         }
         _ => {
             let t = 0.5 * (first.interval.0 + first.interval.1);
-            (curve.at(t).point, t, 1.6 * edge.length())
+            (curve.at(t).point, t, 1.6 * edge.length(), false)
         }
     };
     let at = curve.at(t);
@@ -140,7 +145,8 @@ fn approach(inspection: &Inspection, edge: &Edge, height_px: f64) -> Option<Came
     // Seen from 35 degrees above the surface a step shows its height.
     let back = if is_step { (normal * 0.57 - inward * 0.82).normalize_or(normal) } else { normal };
     let up = if is_step { normal } else { upright(back, inward) };
-    (size.is_finite() && size > 0.0).then_some(CameraRequest::Approach { point, direction: -back, up, size })
+    let look = CameraRequest::Approach { point, direction: -back, up, size };
+    (size.is_finite() && size > 0.0).then_some((look, held))
 }
 
 /// World z as up where that can be told, else into the face.

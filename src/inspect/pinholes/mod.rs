@@ -3,7 +3,8 @@
 //! Candidates come from the picture (a nearer surface on both sides, [`crate::reference::holes`]) and, where a gap is
 //! wider than a few pixels, from the strip between the two exact curves. Each is proved in f64: its ray must pass the
 //! edge within the measured gap and half a pixel, and between the two sides. If the exact surfaces are hit there, the
-//! hole is our own solver's; else it is real, and the curves tell whether the sides stand apart or overlap.
+//! hole is our own solver's, or so near that the picture's rounding shows; else it is real, and the curves tell whether
+//! the sides stand apart or overlap.
 
 mod prove;
 mod screen;
@@ -34,7 +35,13 @@ pub enum HoleClass {
     Overlap,
     /// The exact surfaces have no hole there.
     Solver,
+    /// They have none there either, and a pixel is finer than [`FINEST_PIXEL`] tells: the picture is rounded.
+    Rounding,
 }
+
+/// Pictures place points of a face in single precision. A pixel narrower than this part of the face's size shows its
+/// rounding.
+pub const FINEST_PIXEL: f64 = 5e-7;
 
 /// A proved pin hole.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]

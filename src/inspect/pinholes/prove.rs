@@ -4,7 +4,7 @@ use glam::{DMat2, DVec2, DVec3};
 
 use super::screen::Screen;
 use super::walk::Suspect;
-use super::{HoleClass, HoleScene, PinHole};
+use super::{FINEST_PIXEL, HoleClass, HoleScene, PinHole};
 use crate::inspect::lifted::LiftedCurve;
 use crate::inspect::nearest::nearest;
 use crate::inspect::{Edge, EdgeKey};
@@ -130,8 +130,9 @@ pub(super) fn prove(scene: &HoleScene, screen: &Screen, suspect: &Suspect, shown
     }
     // On both sides of the ray, within a small part of a pixel; beyond the end of the edge the picture told.
     let between = suspect.beyond || first.off.dot(second.off) <= (0.05 * width).powi(2);
+    let finest = FINEST_PIXEL * curve.ground().size().max(other.ground().size());
     let class = if hit.is_some() {
-        HoleClass::Solver
+        if width < finest { HoleClass::Rounding } else { HoleClass::Solver }
     } else if !between {
         return None;
     } else {

@@ -22,10 +22,15 @@ const BESIDE: f32 = 8.0;
 const MOST: usize = 20_000;
 
 /// The classes with their names, as they are counted.
-pub(super) const CLASSES: [(HoleClass, &str, &str); 3] = [
+pub(super) const CLASSES: [(HoleClass, &str, &str); 4] = [
     (HoleClass::Gap, "gap", "The sides stand apart"),
     (HoleClass::Overlap, "overlap", "The sides overlap, one above the other, and one looks in between"),
     (HoleClass::Solver, "our own", "The exact surfaces have no hole there: our own solver failed"),
+    (
+        HoleClass::Rounding,
+        "rounding, too close to tell",
+        "The exact surfaces have no hole there: a pixel is finer than the picture's single precision",
+    ),
 ];
 
 /// Neighbouring holes in a row of the picture: one mark for all.
@@ -114,5 +119,6 @@ pub(in crate::editor::panels) fn colour(class: HoleClass) -> Color32 {
         HoleClass::Gap => Color32::from_rgb(255, 72, 72),
         HoleClass::Overlap => Color32::from_rgb(255, 190, 60),
         HoleClass::Solver => Color32::from_rgb(90, 160, 255),
+        HoleClass::Rounding => Color32::from_rgb(150, 150, 150),
     }
 }
