@@ -121,6 +121,11 @@ fn passes(grid: &ParityGrid, entry: u32, rect: &Rect) -> bool {
     if low > high || ends[0].max(ends[2]) < rect.min.x || ends[0].min(ends[2]) > rect.max.x {
         return false;
     }
+    // Along the border of the parameters nothing is cut off: points are clamped to them. Between equal ends it is straight.
+    let along = |p: f32, q: f32| p == q && (p <= 0.0 || p >= 1.0);
+    if along(ends[0], ends[2]) || along(ends[1], ends[3]) {
+        return false;
+    }
     if ends[1] == ends[3] {
         return true;
     }
@@ -139,17 +144,38 @@ mod tests {
     use crate::kernel::trim::pack::PackedSegments;
     use crate::kernel::trim::{PieceList, SegmentSet};
 
-    #[test]
-    fn coverage_agrees_with_points() {
+    fn polygon(corners: &[(f64, f64)]) -> ParityGrid {
         let mut pieces = PieceList::default();
-        let corners = [(0.2, 0.3), (0.8, 0.25), (0.7, 0.9), (0.4, 0.6)].map(|(u, v)| DVec2::new(u, v));
-        for i in 0..4 {
-            pieces.push(&[corners[i], corners[(i + 1) % 4]], &[1.0, 1.0], None);
+        let corner = |i: usize| DVec2::from(corners[i % corners.len()]);
+        for i in 0..corners.len() {
+            pieces.push(&[corner(i), corner(i + 1)], &[1.0, 1.0], None);
         }
         pieces.close_chain();
         let set = SegmentSet::new(&pieces);
         let packed = PackedSegments::new(&pieces, &set).expect("few segments");
-        let grid = ParityGrid::new(&set, &packed, &GridOptions::default());
+        ParityGrid::new(&set, &packed, &GridOptions::default())
+    }
+
+    #[test]
+    fn loops_along_the_border_cut_off_nothing_but_where_they_leave_it() {
+        let all = polygon(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
+        assert_eq!(coverage(&all, DVec2::ZERO, DVec2::ONE), Coverage::Whole);
+        // A corner is missing.
+        let part = polygon(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.75), (0.75, 0.75), (0.75, 1.0), (0.0, 1.0)]);
+        let cover = |u: f64, v: f64| coverage(&part, DVec2::new(u, v), DVec2::new(u + 0.25, v + 0.2));
+        assert_eq!(cover(0.0, 0.0), Coverage::Whole);
+        assert_eq!(cover(0.75, 0.5), Coverage::Whole);
+        assert_eq!(cover(0.0, 0.8), Coverage::Whole);
+        assert_eq!(cover(0.75, 0.6), Coverage::Mixed);
+        assert_eq!(cover(0.76, 0.8), Coverage::Empty);
+        for (u, v) in [(0.0, 0.0), (0.999_999_94, 0.0), (0.0, 0.999_999_94), (0.999_999_94, 0.7)] {
+            assert!(part.classify(Vec2::new(u, v)), "{u} {v}");
+        }
+    }
+
+    #[test]
+    fn coverage_agrees_with_points() {
+        let grid = polygon(&[(0.2, 0.3), (0.8, 0.25), (0.7, 0.9), (0.4, 0.6)]);
         let mut seen = [0; 3];
         for k in 0..400 {
             let min = DVec2::new((k % 20) as f64, (k / 20) as f64) / 20.0;

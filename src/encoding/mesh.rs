@@ -64,9 +64,9 @@ struct Part {
 /// A face takes no more triangles than this; where it would, it is better cast.
 const FACE_TRIANGLES: usize = 60_000;
 
-/// Triangles that trims pass through are halved until their sides are this many times the error of the level: twelve to
-/// 24 pixels where that is half a pixel. Shorter ones leave less to trim, but take longer to draw than that saves.
-const TRIMMED_SIDE: f64 = 48.0;
+/// Triangles that trims pass through are halved until their sides are this many times the error of the level: ten to
+/// twenty pixels where that is half a pixel. Shorter ones leave less to trim, but take longer to draw than that saves.
+const TRIMMED_SIDE: f64 = 40.0;
 
 /// The triangles of `face` at a level, sorted by what its trims leave of them. `None` where it takes too many, or
 /// cannot be tessellated.
