@@ -78,13 +78,16 @@ fn faces(out: &mut dyn Write, faces: &[FaceInfo]) -> io::Result<()> {
 
 fn report(out: &mut dyn Write, info: &Info) -> io::Result<()> {
     let remarks = &info.report.remarks;
-    let count = |severity| remarks.iter().filter(|r| r.severity == severity).count();
+    let count = |severity, one: &str| {
+        let n = remarks.iter().filter(|r| r.severity == severity).count();
+        format!("{n} {one}{}", if n == 1 { "" } else { "s" })
+    };
     writeln!(
         out,
-        "\nImport report: {} errors, {} warnings, {} notes",
-        count(Severity::Error),
-        count(Severity::Warning),
-        count(Severity::Note)
+        "\nImport report: {}, {}, {}",
+        count(Severity::Error, "error"),
+        count(Severity::Warning, "warning"),
+        count(Severity::Note, "note")
     )?;
     if !info.report.entities.is_empty() {
         let kinds: Vec<String> =

@@ -20,6 +20,19 @@ pub(crate) enum Field {
     Other(String),
 }
 
+/// As a message quotes it.
+impl std::fmt::Display for Field {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Blank => f.write_str("a blank field"),
+            Self::Number(x) => write!(f, "{x}"),
+            Self::Text(text) | Self::Other(text) => {
+                write!(f, "`{}`", text.chars().take(20).collect::<String>())
+            }
+        }
+    }
+}
+
 /// The delimiters that the global section sets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Delimiters {

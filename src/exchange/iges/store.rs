@@ -103,9 +103,9 @@ impl<'a> Store<'a> {
         let reason = match found {
             Some((_, list)) if fits(&list) => return Ok(Args::new(list)),
             Some((start, list)) => format!(
-                "parameter data at line {} begin with {:?} instead of {}",
+                "parameter data at line {} begin with {} instead of {}",
                 lines[start].number,
-                list.first(),
+                list.first().unwrap_or(&Field::Blank),
                 entry.kind
             ),
             None => format!("no parameter line {} for this entry", entry.parameter_start),
