@@ -22,7 +22,7 @@ pub fn run(arguments: &ClassifyArguments) -> Result<(), Failure> {
     drop(progress);
     let records = &opened.model.faces;
     // Faces are made ready when first asked for: a few questions to a large model cost little.
-    let mut ready: Vec<Option<Locator>> = vec![None; records.len()];
+    let mut ready: Vec<Option<Locator>> = records.iter().map(|_| None).collect();
     answer(io::stdin().lock(), io::stdout().lock(), records.len(), |face, u, v| {
         if ready[face].is_none() {
             let derived = records[face].derive().map_err(|e| format!("face {}: {e}", face + 1))?;

@@ -51,7 +51,8 @@ pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
     writeln!(
         out,
         "Point classification, ns per point, one thread, fastest of {RUNS} runs, chunk by chunk\n\
-         (slabs: all of them made before; `hairline bench build` says what that takes)\n"
+         grid: the default of the shaders. slabs: that of many questions on the processor, as of `hairline classify`; all of\n\
+         them made before, `hairline bench build` says what that takes.\n"
     )?;
     for shape in [Shape::Holes, Shape::RationalHoles, Shape::Blob, Shape::Hair] {
         for curves in [12, 100, 1000, 10_000] {

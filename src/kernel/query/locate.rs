@@ -1,32 +1,34 @@
 //! Where many points lie with respect to one face, fast.
 //!
 //! [`Face::classify_native`] looks at every trim curve to see whether one passes close by. For many
-//! points a tree over the curves' boxes pays: far from all curves the parity grid answers at once,
-//! and only points close to one take the long way. The answers are the same.
+//! points a tree over the curves' boxes pays: far from all curves the parity grid with slabs answers at
+//! once, and only points close to one take the long way. The answers are the same.
 
 use glam::{DVec2, DVec3};
 
 use super::BoundsTree;
 use crate::kernel::face::{Face, NEAR, Side};
-use crate::kernel::trim::{TrimStructure, oracle};
+use crate::kernel::trim::{SlabGrid, TrimStructure, oracle};
 use crate::kernel::view::Bounds;
 
-/// A face with a tree over its trim curves.
-#[derive(Debug, Clone)]
+/// A face with a tree over its trim curves, and slabs over its parity grid.
+#[derive(Debug)]
 pub struct Locator {
     face: Face,
     tree: BoundsTree,
+    slabs: SlabGrid,
 }
 
 impl Locator {
-    /// Builds the tree.
+    /// Builds the tree; slabs are made where they are asked for.
     pub fn new(face: Face) -> Self {
         let flat = |p: DVec2| DVec3::new(p.x, p.y, 0.0);
         let list = &face.pieces;
         let bounds: Vec<Bounds> =
             list.pieces().iter().map(|p| Bounds::of([flat(list.start(p)), flat(list.end(p))])).collect();
         let tree = BoundsTree::new(&bounds);
-        Self { face, tree }
+        let slabs = face.slab_grid();
+        Self { face, tree, slabs }
     }
 
     /// The face.
@@ -41,7 +43,7 @@ impl Locator {
         if !inside || self.is_near_a_curve(p) {
             return self.face.classify_native(u, v);
         }
-        if self.face.grid.classify(p.as_vec2()) { Side::In } else { Side::Out }
+        if self.slabs.classify(p.as_vec2()) { Side::In } else { Side::Out }
     }
 
     fn is_near_a_curve(&self, p: DVec2) -> bool {
