@@ -35,6 +35,20 @@ fn mark_at(p: vec2f) -> u32 {
   return marks[slot - 1u];
 }
 
+// Without borders: what a coarse picture gets, where they would be bars of blocks. An entry point of its own, because
+// software drivers look five times otherwise.
+@fragment
+fn fragment_plain(@builtin(position) position: vec4f) -> @location(0) vec4f {
+  let here = mark_at((position.xy - highlight.min_px) / highlight.size_px);
+  if (here == 0u) {
+    discard;
+  }
+  if (here == 2u) {
+    return highlight.hovered;
+  }
+  return highlight.selected;
+}
+
 @fragment
 fn fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
   let p = (position.xy - highlight.min_px) / highlight.size_px;

@@ -56,6 +56,7 @@ pub(super) fn draw(
             super::PipelineSpec {
                 label: "backdrop",
                 shader: &backdrop.shader,
+                fragment: "fragment",
                 layout: &backdrop.layout,
                 buffers: &[],
                 blend: None,

@@ -13,8 +13,7 @@ use bevy::render::view::{ViewDepthTexture, ViewTarget};
 use glam::DVec3;
 
 use super::frame::FrameView;
-use super::grid::LineInstance;
-use super::strokes::{Stroke, StrokeDraw, Uniform, draw_all, ink};
+use super::strokes::{LineInstance, Stroke, StrokeDraw, Uniform, draw_all, ink};
 use crate::editor::inspection::{EdgeLine, EdgeLines};
 use crate::kernel::view::Projection;
 

@@ -13,8 +13,7 @@ use bevy_egui::egui::{Color32, Rgba};
 use glam::DVec3;
 
 use super::frame::FrameView;
-use super::grid::LineInstance;
-use super::strokes::{MarkInstance, Stroke, StrokeDraw, Uniform, draw_all};
+use super::strokes::{LineInstance, MarkInstance, Stroke, StrokeDraw, Uniform, draw_all};
 use crate::editor::handles::{HandleDrawing, HandlePicture};
 
 /// Opacity of what is hidden.

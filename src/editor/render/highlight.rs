@@ -7,7 +7,7 @@ use bevy_egui::egui::Rgba;
 
 use super::faces::RenderFaces;
 use super::frame::FrameView;
-use super::model::ModelPass;
+use super::model::{ModelPass, covered};
 
 /// Pipeline and buffers.
 #[derive(Resource)]
@@ -17,7 +17,8 @@ pub(super) struct Highlight {
     uniform: wgpu::Buffer,
     marks: wgpu::Buffer,
     marks_revision: u64,
-    pipeline: Option<(wgpu::TextureFormat, wgpu::RenderPipeline)>,
+    /// With borders, and without.
+    pipelines: Option<(wgpu::TextureFormat, [wgpu::RenderPipeline; 2])>,
 }
 
 #[repr(C)]
@@ -77,7 +78,14 @@ pub(super) fn create(mut commands: Commands, device: Res<RenderDevice>) {
         mapped_at_creation: false,
     });
     let marks = marks_buffer(device, 64);
-    commands.insert_resource(Highlight { shader, layout, uniform, marks, marks_revision: 0, pipeline: None });
+    commands.insert_resource(Highlight {
+        shader,
+        layout,
+        uniform,
+        marks,
+        marks_revision: 0,
+        pipelines: None,
+    });
 }
 
 /// Draws the tint, if anything is marked.
@@ -106,20 +114,21 @@ pub(super) fn draw(
         queue.write_buffer(&highlight.marks, 0, bytemuck::cast_slice(&faces.marks));
     }
     let format = target.main_texture_format();
-    if highlight.pipeline.as_ref().is_none_or(|(f, _)| *f != format) {
-        let pipeline = super::pipeline(
-            device,
-            super::PipelineSpec {
+    if highlight.pipelines.as_ref().is_none_or(|(f, _)| *f != format) {
+        let make = |fragment| {
+            let spec = super::PipelineSpec {
                 label: "highlight",
                 shader: &highlight.shader,
+                fragment,
                 layout: &highlight.layout,
                 buffers: &[],
                 blend: Some(wgpu::BlendState::ALPHA_BLENDING),
                 depth: None,
                 format,
-            },
-        );
-        highlight.pipeline = Some((format, pipeline));
+            };
+            super::pipeline(device, spec)
+        };
+        highlight.pipelines = Some((format, [make("fragment"), make("fragment_plain")]));
     }
     let (min, size) = frame.viewport.physical();
     let buffer = renderer.shown().size;
@@ -128,15 +137,14 @@ pub(super) fn draw(
         [c[0], c[1], c[2], strength]
     };
     let light = frame.palette.light;
-    // No border in a coarse picture: it would be a bar of blocks.
-    let coarse = buffer[0] < size.x / 2;
+    let coarse = buffer[0] < size.x;
     let uniform = Uniform {
         selected: color(frame.palette.accent, if light { 0.5 } else { 0.45 }),
         hovered: if light { [0.0, 0.12, 0.30, 0.14] } else { [1.0, 1.0, 1.0, 0.10] },
         min_px: min.as_vec2().to_array(),
         size_px: size.as_vec2().to_array(),
         buffer_px: [buffer[0] as f32, buffer[1] as f32],
-        border_px: if coarse { 0.0 } else { 1.2 * frame.viewport.scale_factor },
+        border_px: 1.2 * frame.viewport.scale_factor,
         padding: 0.0,
     };
     queue.write_buffer(&highlight.uniform, 0, bytemuck::bytes_of(&uniform));
@@ -152,14 +160,18 @@ pub(super) fn draw(
             wgpu::BindGroupEntry { binding: 2, resource: highlight.marks.as_entire_binding() },
         ],
     });
-    let Some((_, pipeline)) = &highlight.pipeline else { return };
+    let Some((_, pipelines)) = &highlight.pipelines else { return };
+    let scissor = covered(&frame, target.main_texture().size());
     let mut pass = ctx.command_encoder().begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("highlight"),
         color_attachments: &[Some(super::keep(target.main_texture_view()))],
         ..default()
     });
     super::confine(&mut pass, &frame, target.main_texture().size());
-    pass.set_pipeline(pipeline);
+    if let Some([x, y, width, height]) = scissor {
+        pass.set_scissor_rect(x, y, width, height);
+    }
+    pass.set_pipeline(&pipelines[usize::from(coarse)]);
     pass.set_bind_group(0, &group, &[]);
     pass.draw(0..3, 0..1);
 }

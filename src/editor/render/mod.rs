@@ -10,10 +10,10 @@ mod edges;
 mod faces;
 mod frame;
 mod grid;
+mod ground;
 mod handles;
 mod highlight;
 mod holes;
-mod lines;
 mod model;
 mod pace;
 mod pick;
@@ -78,7 +78,7 @@ impl Plugin for RenderPlugin {
                 RenderStartup,
                 (
                     backdrop::create,
-                    lines::create,
+                    ground::create,
                     edges::create,
                     wires::create,
                     model::create,
@@ -105,7 +105,7 @@ impl Plugin for RenderPlugin {
                     highlight::draw,
                     pick::copy,
                     holes::copy,
-                    lines::draw,
+                    ground::draw,
                     wires::draw,
                     edges::draw,
                     handles::draw,
@@ -134,6 +134,8 @@ fn mark(mut commands: Commands, cameras: Extract<Query<RenderEntity, With<Viewpo
 struct PipelineSpec<'a> {
     label: &'static str,
     shader: &'a wgpu::ShaderModule,
+    /// Its entry point for pixels; that for vertices is `vertex`.
+    fragment: &'static str,
     layout: &'a wgpu::BindGroupLayout,
     buffers: &'a [wgpu::VertexBufferLayout<'a>],
     blend: Option<wgpu::BlendState>,
@@ -141,7 +143,7 @@ struct PipelineSpec<'a> {
     format: wgpu::TextureFormat,
 }
 
-/// A pipeline with entry points `vertex` and `fragment`, one bind group, triangles.
+/// A pipeline with one bind group, triangles.
 fn pipeline(device: &wgpu::Device, spec: PipelineSpec) -> wgpu::RenderPipeline {
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(spec.label),
@@ -159,7 +161,7 @@ fn pipeline(device: &wgpu::Device, spec: PipelineSpec) -> wgpu::RenderPipeline {
         },
         fragment: Some(wgpu::FragmentState {
             module: spec.shader,
-            entry_point: Some("fragment"),
+            entry_point: Some(spec.fragment),
             compilation_options: default(),
             targets: &[Some(wgpu::ColorTargetState {
                 format: spec.format,

@@ -301,7 +301,7 @@ pub(super) fn draw(
 }
 
 /// The pixels of the target that the model can cover: x, y, width, height. `None`: all of them.
-fn covered(frame: &FrameView, target: wgpu::Extent3d) -> Option<[u32; 4]> {
+pub(super) fn covered(frame: &FrameView, target: wgpu::Extent3d) -> Option<[u32; 4]> {
     if frame.bounds.is_empty() {
         return None;
     }

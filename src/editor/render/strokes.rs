@@ -1,4 +1,4 @@
-//! What grid, edges and handles share: lines and marks of constant width in pixels, one instance each, tested against
+//! What axes, edges and handles share: lines and marks of constant width in pixels, one instance each, tested against
 //! the depth of the model.
 
 use bevy::math::UVec2;
@@ -7,7 +7,6 @@ use bevy::render::view::{ViewDepthTexture, ViewTarget};
 use bevy_egui::egui::{Color32, Rgba};
 
 use super::frame::FrameView;
-use super::grid::LineInstance;
 use crate::editor::camera::clip::ClipView;
 
 /// Mirror of `StrokeView` in `shaders/layout/strokes.wgsl`, where the fields are described.
@@ -30,6 +29,35 @@ impl Uniform {
             size_px: [size.x as f32, size.y as f32],
             depth: 1.0,
             opacity: 1.0,
+        }
+    }
+}
+
+/// One line as the shader gets it: relative to the eye.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct LineInstance {
+    pub start: [f32; 3],
+    pub end: [f32; 3],
+    /// Linear RGB, not premultiplied.
+    pub color: [f32; 4],
+    pub width_px: f32,
+}
+
+impl LineInstance {
+    /// A line between two points relative to the eye; colour linear, not premultiplied.
+    pub fn new(start: [f32; 3], end: [f32; 3], color: [f32; 4], width_px: f32) -> Self {
+        Self { start, end, color, width_px }
+    }
+
+    /// How the buffer is read.
+    fn layout() -> wgpu::VertexBufferLayout<'static> {
+        const ATTRIBUTES: [wgpu::VertexAttribute; 4] =
+            wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32];
+        wgpu::VertexBufferLayout {
+            array_stride: size_of::<LineInstance>() as u64,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &ATTRIBUTES,
         }
     }
 }
@@ -141,6 +169,7 @@ impl StrokeDraw {
             let spec = super::PipelineSpec {
                 label: self.label,
                 shader: &self.shader,
+                fragment: "fragment",
                 layout: &self.layout,
                 buffers: &[self.stroke.layout()],
                 blend: Some(wgpu::BlendState::ALPHA_BLENDING),

@@ -13,8 +13,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::frame::FrameView;
-use super::grid::LineInstance;
-use super::strokes::{Stroke, StrokeDraw, Uniform, begin, ink};
+use super::strokes::{LineInstance, Stroke, StrokeDraw, Uniform, begin, ink};
 use super::tessellation::RenderTessellation;
 use crate::editor::camera::clip::ClipView;
 use crate::editor::inspection::ramp;
