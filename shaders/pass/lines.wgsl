@@ -1,10 +1,10 @@
-// Straight lines of constant width in pixels, smoothed at their borders: grid, axes and handles of the viewport.
+// Straight lines of constant width in pixels, smoothed at their borders: axes, edges and handles of the viewport.
 // One instance per line, six vertices each. Positions are relative to the eye.
 
 struct Line {
   @location(0) start: vec3f,
   @location(1) end: vec3f,
-  // sRGB encoded, not premultiplied.
+  // Linear, not premultiplied.
   @location(2) color: vec4f,
   @location(3) width_px: f32,
 }
@@ -47,7 +47,7 @@ fn vertex(line: Line, @builtin(vertex_index) index: u32) -> Corner {
   let along = (b.xy / b.w - a.xy / a.w) * half;
   let length = max(length(along), 1e-6);
   let normal = vec2f(-along.y, along.x) / length;
-  let reach = 0.5 * line.width_px + 1.0;
+  let reach = 0.5 * line.width_px + 0.5;
   let side = select(-reach, reach, left);
   let end = select(a, b, at_end);
   out.clip = vec4f(end.xy + normal * side / half * end.w, end.z * view.depth, end.w);

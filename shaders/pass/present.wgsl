@@ -21,9 +21,14 @@ fn vertex(@builtin(vertex_index) index: u32) -> Screen {
     return Screen(vec4f(2.0 * corner - 1.0, 0.0, 1.0), vec2f(corner.x, 1.0 - corner.y));
 }
 
-// Premultiplied linear colour.
+// Premultiplied linear colour of the surfaces.
+fn mean(uv: vec2f) -> vec4f {
+    return textureSampleLevel(accumulated, smooth_sampler, uv, 0.0) / look.samples;
+}
+
+// The same over the background.
 fn composed(uv: vec2f) -> vec4f {
-    let sum = textureSampleLevel(accumulated, smooth_sampler, uv, 0.0) / look.samples;
+    let sum = mean(uv);
     let background = mix(look.background_top, look.background_bottom, uv.y);
     let over = vec4f(background.rgb * background.a, background.a);
     return sum + (1.0 - clamp(sum.a, 0.0, 1.0)) * over;
@@ -39,15 +44,15 @@ fn depth_at(uv: vec2f) -> f32 {
 }
 
 // For targets that encode what they are given. Entry points of their own, because software drivers compute
-// both sides of every branch.
+// both sides of every branch. With depth they go over what is there.
 @fragment
 fn fragment_linear(in: Screen) -> Pixel {
-    return Pixel(composed(in.uv), depth_at(in.uv));
+    return Pixel(mean(in.uv), depth_at(in.uv));
 }
 
 @fragment
 fn fragment(in: Screen) -> Pixel {
-    return Pixel(encoded(composed(in.uv)), depth_at(in.uv));
+    return Pixel(encoded(mean(in.uv)), depth_at(in.uv));
 }
 
 // For targets without a depth buffer.

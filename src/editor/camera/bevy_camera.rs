@@ -10,6 +10,7 @@ use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
 use super::ViewCamera;
 use super::clip::ClipView;
 use crate::editor::derive::SceneBounds;
+use crate::editor::theme::Palette;
 use crate::editor::viewport::Viewport;
 use crate::kernel::view::Projection as ViewProjection;
 
@@ -52,6 +53,17 @@ pub(super) fn spawn(mut commands: Commands, settings: Option<ResMut<EguiGlobalSe
             ..default()
         },
     ));
+}
+
+/// Clears the window to the colour of the panels, so that none has to be filled: a third of what they cost on a
+/// software driver.
+pub(super) fn clear(palette: Option<Res<Palette>>, mut cameras: Query<&mut Camera, With<ViewportCamera>>) {
+    if let Some(palette) = palette.filter(|p| p.is_changed()) {
+        let [r, g, b, _] = palette.panel.to_array();
+        for mut camera in &mut cameras {
+            camera.clear_color = ClearColorConfig::Custom(Color::srgb_u8(r, g, b));
+        }
+    }
 }
 
 /// Makes Bevy's camera show the same picture as ours.

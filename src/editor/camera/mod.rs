@@ -14,6 +14,7 @@ mod request;
 use bevy::prelude::*;
 
 pub use bevy_camera::ViewportCamera;
+pub(super) use navigate::Drag;
 pub use request::CameraRequest;
 
 use super::EditorSystems;
@@ -56,6 +57,7 @@ impl Plugin for CameraPlugin {
             .add_message::<bevy::window::WindowEvent>()
             .add_systems(Startup, bevy_camera::spawn)
             .add_systems(Update, (navigate::drag, navigate::wheel).chain().in_set(super::NavigationInput))
+            .add_systems(Last, bevy_camera::clear)
             .add_systems(Update, request::command_requests.in_set(EditorSystems::Tools))
             .add_systems(
                 Update,

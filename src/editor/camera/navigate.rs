@@ -22,7 +22,14 @@ const MOST_LINES: f64 = 6.0;
 
 /// The drag under way.
 #[derive(Resource, Debug, Default)]
-pub(super) struct Drag(Option<Grip>);
+pub(in crate::editor) struct Drag(Option<Grip>);
+
+impl Drag {
+    /// Whether the view is being turned or moved.
+    pub fn is_on(&self) -> bool {
+        self.0.is_some()
+    }
+}
 
 #[derive(Debug)]
 struct Grip {

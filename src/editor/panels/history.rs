@@ -12,7 +12,7 @@ use crate::editor::theme::size;
 
 /// Shows the steps as a part of the right panel.
 pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes) {
-    let frame = Frame::new().fill(reads.palette.panel).inner_margin(Margin::symmetric(10, 8));
+    let frame = Frame::new().inner_margin(Margin::symmetric(10, 8));
     egui::Panel::right("history").frame(frame).default_size(220.0).min_size(160.0).max_size(420.0).show(
         root,
         |ui| {

@@ -77,8 +77,7 @@ fn update(state: &mut ProblemsState, reads: &Reads) {
 pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes, owned: &mut Owned) {
     let state = &mut owned.state.problems;
     update(state, reads);
-    let frame =
-        Frame::new().fill(reads.palette.panel).inner_margin(Margin { left: 12, right: 8, top: 8, bottom: 4 });
+    let frame = Frame::new().inner_margin(Margin { left: 12, right: 8, top: 8, bottom: 4 });
     let panel =
         egui::Panel::bottom("problems").frame(frame).default_size(150.0).min_size(80.0).max_size(500.0);
     panel.resizable(true).show(root, |ui| {

@@ -15,12 +15,7 @@ use crate::kernel::view::Bounds;
 
 /// Shows the panel.
 pub(super) fn show(root: &mut Ui, reads: &Reads, selection: &Selection) {
-    let frame = Frame::new().fill(reads.palette.panel).inner_margin(Margin {
-        left: 14,
-        right: 10,
-        top: 10,
-        bottom: 8,
-    });
+    let frame = Frame::new().inner_margin(Margin { left: 14, right: 10, top: 10, bottom: 8 });
     let panel =
         egui::Panel::right("properties").frame(frame).default_size(280.0).min_size(220.0).max_size(480.0);
     panel.show(root, |ui| {

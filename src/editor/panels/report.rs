@@ -33,8 +33,7 @@ pub(super) fn mark(severity: Severity, palette: &Palette) -> (Icon, egui::Color3
 
 /// Shows the panel.
 pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes, owned: &mut Owned) {
-    let frame =
-        Frame::new().fill(reads.palette.panel).inner_margin(Margin { left: 12, right: 8, top: 8, bottom: 4 });
+    let frame = Frame::new().inner_margin(Margin { left: 12, right: 8, top: 8, bottom: 4 });
     let panel = egui::Panel::bottom("report").frame(frame).default_size(190.0).min_size(90.0).max_size(500.0);
     panel.resizable(true).show(root, |ui| {
         let remarks: Vec<(Entity, &Remark)> = reads

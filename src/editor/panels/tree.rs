@@ -27,8 +27,7 @@ pub struct TreeState {
 
 /// Shows the panel.
 pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes, owned: &mut Owned) {
-    let frame =
-        Frame::new().fill(reads.palette.panel).inner_margin(Margin { left: 0, right: 0, top: 8, bottom: 0 });
+    let frame = Frame::new().inner_margin(Margin { left: 0, right: 0, top: 8, bottom: 0 });
     let panel = egui::Panel::left("tree").frame(frame).default_size(270.0).min_size(180.0).max_size(520.0);
     panel.show(root, |ui| {
         search(ui, reads, &mut owned.state.tree);

@@ -81,7 +81,8 @@ pub(super) fn resolve(
         redraw.write(RequestRedraw);
     }
     if pointer.in_viewport {
-        let hovered = picker.answer.and_then(|(_, hit)| hit).map(|h| h.face);
+        let hovered =
+            picker.answer.filter(|_| picker.wanted.is_some()).and_then(|(_, hit)| hit).map(|h| h.face);
         if selection.hovered != hovered {
             selection.hovered = hovered;
         }

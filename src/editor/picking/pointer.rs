@@ -6,6 +6,7 @@ use bevy_egui::{EguiContexts, egui};
 use egui_file_dialog::DialogState;
 
 use super::Picker;
+use crate::editor::camera::Drag;
 use crate::editor::files::FileDialogs;
 use crate::editor::uv::UvPanel;
 use crate::editor::viewport::{Pointer, Viewport};
@@ -17,6 +18,7 @@ pub(super) fn route(
     viewport: Res<Viewport>,
     uv: Res<UvPanel>,
     dialogs: Res<FileDialogs>,
+    drag: Res<Drag>,
     mut contexts: EguiContexts,
     mut pointer: ResMut<Pointer>,
     mut picker: ResMut<Picker>,
@@ -44,7 +46,9 @@ pub(super) fn route(
         now.in_uv = uv.open && free_at.is_some_and(|p| uv.view.contains(p.as_dvec2()));
     }
     pointer.set_if_neq(now);
-    let wanted = pointer.position.filter(|_| pointer.in_viewport).map(|p| viewport.pixel(p));
+    // Nothing lights up while the view turns, which saves looking too.
+    let looks = pointer.in_viewport && !drag.is_on();
+    let wanted = pointer.position.filter(|_| looks).map(|p| viewport.pixel(p));
     // A click keeps its pixel until it is answered, wherever the pointer goes meanwhile.
     if picker.wanted != wanted && picker.click.is_none() {
         picker.wanted = wanted;

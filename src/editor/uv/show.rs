@@ -123,7 +123,7 @@ pub fn show(root: &mut Ui, params: &mut UvParams) {
         }
         return;
     }
-    let frame = Frame::new().fill(params.palette.panel).inner_margin(Margin::ZERO);
+    let frame = Frame::new().inner_margin(Margin::ZERO);
     let room = root.available_rect_before_wrap();
     let panel = if params.settings.uv_beside {
         egui::Panel::right("uv beside")

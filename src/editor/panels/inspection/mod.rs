@@ -50,8 +50,7 @@ const SUMMARY: f32 = 300.0;
 
 /// Shows the panel.
 pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes, state: &mut InspectionState) {
-    let frame =
-        Frame::new().fill(reads.palette.panel).inner_margin(Margin { left: 12, right: 8, top: 8, bottom: 6 });
+    let frame = Frame::new().inner_margin(Margin { left: 12, right: 8, top: 8, bottom: 6 });
     let panel =
         egui::Panel::bottom("inspection").frame(frame).default_size(270.0).min_size(150.0).max_size(600.0);
     panel.resizable(true).show(root, |ui| {

@@ -50,8 +50,7 @@ pub(super) fn show(root: &mut Ui, reads: &Reads, writes: &mut Writes, panel: &mu
     if reads.settings.tessellation.view == TessellationView::Off || reads.scene.is_empty() {
         return;
     }
-    let frame =
-        Frame::new().fill(reads.palette.panel).inner_margin(Margin { left: 12, right: 8, top: 8, bottom: 6 });
+    let frame = Frame::new().inner_margin(Margin { left: 12, right: 8, top: 8, bottom: 6 });
     egui::Panel::bottom("tessellation").frame(frame).resizable(false).exact_size(HEIGHT).show(root, |ui| {
         head(ui, reads, writes, panel);
         ui.add_space(6.0);
