@@ -90,7 +90,8 @@ Examples:
   hairline tessellate part.igs --error 0.1mm -o part.ply --json | jq .triangles
 
 The error is the largest distance between mesh and surface, both ways, kept by bounds; with --approximate
-it is estimated at points, for less time and a few triangles fewer. The true error is measured at samples and
+it is estimated at points, for less time and a few triangles fewer. Vertices may lie off the surface within the
+error, so that triangles pass through it and are fewer; --on-surface keeps them on it. The true error is measured at samples and
 told, with the rest of the figures. Faces with triangles that the bounds cannot prove are named with the error
 measured; so is a face that comes out without triangles. Faces that share edges share their vertices. OBJ
 files come with a .mtl file.")]
@@ -110,6 +111,9 @@ pub struct TessellateArguments {
     /// Estimate the error instead of guaranteeing it.
     #[arg(long)]
     pub approximate: bool,
+    /// Keep all vertices on the surfaces: takes more triangles.
+    #[arg(long)]
+    pub on_surface: bool,
     /// Ask before making more triangles than this; stop where there is no terminal to ask at.
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     pub limit: usize,

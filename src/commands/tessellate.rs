@@ -189,6 +189,7 @@ fn options(
     }
     Ok(TessellationOptions {
         conservative: !arguments.approximate,
+        balanced: !arguments.on_surface,
         max_angle: arguments.angle.map(|a| a.0),
         max_edge: arguments.max_edge.map(|l| l.mm / unit),
         triangle_limit: if arguments.yes { TessellationOptions::TRIANGLE_LIMIT } else { arguments.limit },

@@ -7,6 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::seams::{Seams, run_of};
@@ -237,6 +238,8 @@ struct Division<'s, 'f, 'a> {
     samples: Vec<Vec<EdgeSample>>,
     /// Part of the tolerance that each seam is divided for.
     parts: Vec<f64>,
+    /// Seams whose vertices lie on their curves, because others would cross.
+    plain: Vec<bool>,
     /// Stretches of each face's runs, in order.
     stretches: BTreeMap<(usize, usize, usize), Vec<usize>>,
 }
@@ -250,14 +253,18 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
             stretches.entry((a.face, a.chain, a.run)).or_default().push(k);
         }
         let chords = AtomicUsize::new(0);
+        let room = |k: &usize| {
+            faces[seams.stretches[*k].address.face].as_ref().is_some_and(Tessellator::leaves_room)
+        };
+        let plain: Vec<bool> = seams.seams.iter().map(|s| !s.stretches.iter().all(room)).collect();
         let divide = |seam: usize| {
-            let samples = seams.divide(seam, faces, 1.0);
+            let samples = seams.divide(seam, faces, 1.0, plain[seam]);
             let own = samples.len().saturating_sub(1);
             // Stretches that are points have no triangles.
             (own == 1 || chords.fetch_add(own, Ordering::Relaxed) + own <= limit).then_some(samples)
         };
         let samples = (0..seams.seams.len()).into_par_iter().map(divide).collect::<Option<_>>()?;
-        Some(Self { seams, faces, samples, parts: vec![1.0; seams.seams.len()], stretches })
+        Some(Self { seams, faces, samples, parts: vec![1.0; seams.seams.len()], plain, stretches })
     }
 
     /// The chords of a face.
@@ -300,6 +307,7 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
     /// Shortens chords of seams; gives the faces at them.
     fn shorten(&mut self, long: &[(usize, LongChord)]) -> BTreeSet<usize> {
         let mut wanted: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+        let mut crossed: BTreeSet<usize> = BTreeSet::new();
         for (face, chord) in long {
             let mut index = chord.index;
             for number in self.stretches.get(&(*face, chord.chain, chord.run)).into_iter().flatten() {
@@ -308,6 +316,9 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
                 if index < chords {
                     let at = if stretch.forward { index } else { chords - 1 - index };
                     wanted.entry(stretch.seam).or_default().insert(at);
+                    if chord.crossed {
+                        crossed.insert(stretch.seam);
+                    }
                     break;
                 }
                 index -= chords;
@@ -319,9 +330,13 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
             faces.extend(
                 self.seams.seams[seam].stretches.iter().map(|k| self.seams.stretches[*k].address.face),
             );
-            if is_common(chords.len(), self.samples[seam].len().saturating_sub(1)) {
+            self.plain[seam] |= crossed.contains(&seam);
+            let plain = self.plain[seam];
+            if plain && self.samples[seam].iter().any(|s| s.off != DVec3::ZERO) {
+                self.samples[seam] = self.seams.divide(seam, self.faces, self.parts[seam], true);
+            } else if is_common(chords.len(), self.samples[seam].len().saturating_sub(1)) {
                 self.parts[seam] *= STEP;
-                self.samples[seam] = self.seams.divide(seam, self.faces, self.parts[seam]);
+                self.samples[seam] = self.seams.divide(seam, self.faces, self.parts[seam], plain);
             } else if let Some((_, run)) = run_of(self.faces, &first.address) {
                 for chord in chords.into_iter().rev() {
                     halve_chord(run, &mut self.samples[seam], chord);

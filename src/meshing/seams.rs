@@ -232,13 +232,19 @@ impl Seams {
         seams.into_iter().map(|seam| seam.into_iter().map(|m| group[m.0]).collect()).collect()
     }
 
-    /// The vertices of a seam on its first stretch, for `part` of the tolerance.
-    pub fn divide(&self, seam: usize, faces: &[Option<Tessellator>], part: f64) -> Vec<EdgeSample> {
+    /// The vertices of a seam on its first stretch, for `part` of the tolerance; on its curve if they are to be `plain`.
+    pub fn divide(
+        &self,
+        seam: usize,
+        faces: &[Option<Tessellator>],
+        part: f64,
+        plain: bool,
+    ) -> Vec<EdgeSample> {
         let stretch = &self.stretches[self.seams[seam].stretches[0]];
         let Some((face, run)) = run_of(faces, &stretch.address) else { return Vec::new() };
         // What gaps use up of the tolerance is not there for chords.
         let rest = (1.0 - self.gap(seam, faces) / face.tolerance()).max(LEAST_SHARE);
-        let mut samples = face.divide_part(run, stretch.range, part * rest);
+        let mut samples = face.divide_part(run, stretch.range, part * rest, plain);
         let last = samples.len() - 1;
         samples[0].point = self.vertices[stretch.ends[0]];
         samples[last].point = self.vertices[stretch.ends[1]];
@@ -305,21 +311,22 @@ impl Seams {
                 _ if k + 1 == count => to,
                 _ => {
                     let low = samples[k - 1].s;
+                    let target = source.point - source.off;
                     let guess = (from + (to - from) * share).max(low);
-                    let off = |s: f64| run.point(s).distance(source.point);
-                    let mut s = run.project(source.point, guess, (low, to));
+                    let off = |s: f64| run.point(s).distance(target);
+                    let mut s = run.project(target, guess, (low, to));
                     let step = run.point(guess).distance(samples[k - 1].point);
                     if (off(s) > FAR * step || !(s > low && s < to))
-                        && let Some((nearest, _)) = run.nearest_within(source.point, off(s))
+                        && let Some((nearest, _)) = run.nearest_within(target, off(s))
                     {
-                        let near = run.project(source.point, nearest.clamp(low, to), (low, to));
+                        let near = run.project(target, nearest.clamp(low, to), (low, to));
                         s = if off(near) < off(s) { near } else { s };
                     }
                     // Vertices keep their order even where the curves do not follow each other.
                     if s > low && s < to { s } else { low + 1e-3 * (to - low) / (count - k) as f64 }
                 }
             };
-            samples.push(EdgeSample { s, uv: run.uv(s), point: source.point });
+            samples.push(EdgeSample { s, uv: run.uv(s), ..*source });
         }
         samples
     }

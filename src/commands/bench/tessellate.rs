@@ -24,6 +24,9 @@ use crate::scene::records::ModelRecord;
 /// Tolerance as a part of the model's diagonal.
 const TOLERANCE: f64 = 1e-4;
 
+/// Points along a side of a triangle at most.
+const DENSEST: usize = 2000;
+
 /// A model ready to be divided.
 struct Subject {
     name: String,
@@ -297,11 +300,10 @@ fn meshes(subjects: &[Subject], samples: usize) -> Sheet {
             let Ok(mesh) = mesh_faces(&faces, &options, &Work::QUIET) else { continue };
             let seconds = start.elapsed().as_secs_f64();
             let triangles = mesh.triangle_count();
-            // The two sides take about as many points each.
-            let wanted = samples as f64 / 2.0 / triangles.max(1) as f64;
-            let density = ((2.0 * wanted).sqrt().ceil() as usize).clamp(2, 200);
-            let most = samples / 2;
-            let each = measure_each(&faces, &mesh, density, most);
+            // Triangles alone take as many points as asked for; those of the surface come on top.
+            let wanted = samples as f64 / triangles.max(1) as f64;
+            let density = ((2.0 * wanted).sqrt().ceil() as usize).clamp(2, DENSEST);
+            let each = measure_each(&faces, &mesh, density, samples);
             let taken: usize = each.iter().flatten().map(|d| d.samples).sum();
             let errors = each.iter().flatten().map(|d| d.largest() / options.tolerance);
             let over = errors.clone().filter(|e| *e > 1.0 + 1e-9).count();

@@ -7,6 +7,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::balance::balanced;
 use super::line_error::{farthest_point, line_error, point_error, within};
 use super::options::{CurveDivision, CurveError, TessellationOptions};
 use super::outline::Run;
@@ -21,6 +22,8 @@ pub struct EdgeSample {
     pub uv: DVec2,
     /// Position that all faces at this edge share.
     pub point: DVec3,
+    /// How far it was put off the curve, so that chords may be longer.
+    pub off: DVec3,
 }
 
 /// What chords must keep to.
@@ -32,6 +35,8 @@ pub struct ChordLimits {
     pub angle: f64,
     /// Longest chord.
     pub length: f64,
+    /// Whether vertices may be put off the curve for longer chords.
+    pub balanced: bool,
 }
 
 /// Turn of a chord without a limit: a circle keeps three of them and two half circles two each.
@@ -56,19 +61,21 @@ impl ChordLimits {
             tolerance: options.tolerance,
             angle: options.max_angle.unwrap_or(WIDEST_TURN).min(WIDEST_TURN),
             length: options.max_edge.unwrap_or(f64::INFINITY),
+            balanced: options.balanced && !options.simplify,
         }
     }
 }
 
 /// Vertices of `run`, both ends included, `s` rising.
 pub fn divide(run: &Run, limits: &ChordLimits, options: &TessellationOptions) -> Vec<EdgeSample> {
-    let mut places = match options.curve_division {
-        _ if is_nothing(run, NOTHING * limits.tolerance) => vec![0.0, run.range()],
+    let on_curve = |places: Vec<f64>| places.into_iter().map(|s| (s, DVec3::ZERO)).collect();
+    let mut places: Vec<Place> = match options.curve_division {
+        _ if is_nothing(run, NOTHING * limits.tolerance) => on_curve(vec![0.0, run.range()]),
         CurveDivision::Even => even(run, limits),
-        other => by_pieces(run, limits, other, options.curve_error),
+        other => on_curve(by_pieces(run, limits, other, options.curve_error)),
     };
-    places.dedup();
-    let sample = |s: f64| EdgeSample { s, uv: run.uv(s), point: run.point(s) };
+    places.dedup_by(|b, a| a.0 == b.0);
+    let sample = |(s, off): Place| EdgeSample { s, uv: run.uv(s), point: run.point(s) + off, off };
     places.into_iter().map(sample).collect()
 }
 
@@ -101,8 +108,11 @@ fn is_nothing(run: &Run, reach: f64) -> bool {
     run.pieces.iter().flat_map(|p| &p.space.points).all(|p| p.distance(start) <= reach)
 }
 
-fn even(run: &Run, limits: &ChordLimits) -> Vec<f64> {
-    let mut places = vec![0.0];
+/// A parameter on a run, and how far a vertex is put off it.
+pub(super) type Place = (f64, DVec3);
+
+fn even(run: &Run, limits: &ChordLimits) -> Vec<Place> {
+    let mut places = vec![(0.0, DVec3::ZERO)];
     let mut first = 0;
     for k in 0..run.pieces.len() {
         let last = k + 1 == run.pieces.len();
@@ -133,10 +143,10 @@ fn demand(curve: &BezierCurve3, limits: &ChordLimits, probes: usize) -> impl Ite
 }
 
 /// Divides the pieces `first..end` of a run, a smooth stretch.
-fn stretch(run: &Run, first: usize, end: usize, limits: &ChordLimits, places: &mut Vec<f64>) {
+fn stretch(run: &Run, first: usize, end: usize, limits: &ChordLimits, places: &mut Vec<Place>) {
     let line = |k: usize| run.pieces[k].space.degree() == 1;
     if end == first + 1 && line(first) && limits.length.is_infinite() {
-        places.push(end as f64);
+        places.push((end as f64, DVec3::ZERO));
         return;
     }
     let simple = run.pieces[first..end].iter().all(|p| p.space.degree() <= 3);
@@ -149,6 +159,15 @@ fn stretch(run: &Run, first: usize, end: usize, limits: &ChordLimits, places: &m
     let strict = limits.length.is_finite() || limits.angle < WIDEST_TURN;
     let least = (total - if strict { 0.0 } else { 0.01 }).ceil().max(1.0) as usize;
     let offset = first as f64;
+    if limits.balanced && least > 2 {
+        let cuts = |weights: &[f64]| -> Vec<f64> {
+            weighted_shares(&demands, weights, probes).into_iter().map(|c| offset + c).collect()
+        };
+        if let Some(found) = balanced(run, total, least, limits, &cuts) {
+            places.extend(found);
+            return;
+        }
+    }
     let mut before = 0;
     for round in 0..ROUNDS {
         let count = least + (least * round).div_ceil(40);
@@ -159,12 +178,14 @@ fn stretch(run: &Run, first: usize, end: usize, limits: &ChordLimits, places: &m
                 && is_within(run, from, to, limits.tolerance)
         };
         if count > before && cuts.windows(2).all(fits) {
-            places.extend(cuts[1..].iter().map(|c| offset + c));
+            places.extend(cuts[1..].iter().map(|c| (offset + c, DVec3::ZERO)));
             return;
         }
         before = count;
     }
-    farthest(run, (offset, end as f64), limits, places);
+    let mut ends = Vec::new();
+    farthest(run, (offset, end as f64), limits, &mut ends);
+    places.extend(ends.into_iter().map(|s| (s, DVec3::ZERO)));
 }
 
 /// Divides where even shares do not do (polylines, say, have no curvature but in their corners): each chord goes as far as it
@@ -219,12 +240,20 @@ fn farthest(run: &Run, (start, end): (f64, f64), limits: &ChordLimits, places: &
 
 /// `count + 1` parameters at even shares of the demand, the first 0 and the last the number of pieces.
 fn shares(demands: &[f64], count: usize, probes: usize) -> Vec<f64> {
+    weighted_shares(demands, &vec![1.0; count], probes)
+}
+
+/// The same at shares as large as given.
+fn weighted_shares(demands: &[f64], weights: &[f64], probes: usize) -> Vec<f64> {
     let total: f64 = demands.iter().sum();
+    let all: f64 = weights.iter().sum();
+    let count = weights.len();
     let end = demands.len() as f64 / probes as f64;
     let mut cuts = vec![0.0];
-    let (mut k, mut before) = (0, 0.0);
-    for i in 1..count {
-        let target = total * i as f64 / count as f64;
+    let (mut k, mut before, mut passed) = (0, 0.0, 0.0);
+    for weight in &weights[..count - 1] {
+        passed += weight;
+        let target = total * passed / all;
         while k + 1 < demands.len() && before + demands[k] < target {
             before += demands[k];
             k += 1;
@@ -241,7 +270,11 @@ fn shares(demands: &[f64], count: usize, probes: usize) -> Vec<f64> {
 
 /// Whether the part of a run between two parameters lies within `tolerance` of its chord.
 pub(super) fn is_within(run: &Run, from: f64, to: f64, tolerance: f64) -> bool {
-    let (a, b) = (run.point(from), run.point(to));
+    is_within_chord(run, (from, to), [run.point(from), run.point(to)], tolerance)
+}
+
+/// The same for a chord that starts and ends off the curve.
+pub(super) fn is_within_chord(run: &Run, (from, to): (f64, f64), [a, b]: [DVec3; 2], tolerance: f64) -> bool {
     let (first, last) = (from as usize, (to.ceil() as usize).clamp(1, run.pieces.len()));
     (first..last).all(|k| {
         let curve = &run.pieces[k].space;
@@ -308,6 +341,6 @@ pub fn halve_chord(run: &Run, samples: &mut Vec<EdgeSample>, index: usize) {
     let joint = middle.round();
     let s = if (joint - middle).abs() < 0.3 * (b - a) { joint } else { middle };
     if s > a && s < b {
-        samples.insert(index + 1, EdgeSample { s, uv: run.uv(s), point: run.point(s) });
+        samples.insert(index + 1, EdgeSample { s, uv: run.uv(s), point: run.point(s), off: DVec3::ZERO });
     }
 }

@@ -14,12 +14,11 @@ const CHOICES: usize = 4;
 /// Triangles in parameters are at least this high for their longest side.
 const THINNEST: f64 = 2e-3;
 
-/// Takes vertices from number `fixed` on out of `triangles` as far as `refinement` allows; asks now and then whether
+/// Takes vertices inside out of `triangles` as far as `refinement` allows; asks now and then whether
 /// the work is `cancelled`.
 pub(super) fn decimate(
     triangles: &mut Vec<[u32; 3]>,
     vertices: &Vertices,
-    fixed: usize,
     refinement: &Refinement,
     cancelled: &dyn Fn() -> bool,
 ) {
@@ -27,6 +26,7 @@ pub(super) fn decimate(
     for (k, t) in triangles.iter().enumerate() {
         t.iter().for_each(|v| around[*v as usize].push(k as u32));
     }
+    let fixed = vertices.fixed;
     let mut gone = vec![false; triangles.len()];
     let mut waiting: Vec<u32> = (fixed as u32..vertices.uvs.len() as u32).collect();
     for _ in 0..ROUNDS {

@@ -109,14 +109,15 @@ impl<'a> Flatness<'a> {
         Self { sheet: ground.sheet.clone(), ground: ground.clone(), creases: creases(ground), origin, domain }
     }
 
-    /// Bound of the distance of the surface over a triangle of native `uv` from a plane that its corners lie in. Stops as
+    /// Bound of the distance of the surface over a triangle of native `uv` from a plane. Stops as
     /// soon as it is known to be above `limit`, or when halving further would cost more than it is worth.
     pub fn triangle(&self, uv: [DVec2; 3], plane: Supporting, limit: f64) -> f64 {
         let (low, high) = self.boxed(&uv);
         let foot = plane.0 - self.origin;
         let height = |p: DVec3, w: f64| DVec2::new(plane.1.dot(p - foot) * w, w);
         let mut nets = self.nets(low, high, height);
-        self.part(uv, [0.0; 3], limit, DEPTH, &mut nets, 0)
+        let heights = uv.map(|uv| nets.at(0, uv).x);
+        self.part(uv, heights, limit, DEPTH, &mut nets, 0)
     }
 
     /// The bound for a part of the triangle whose nets stand from number `first` on in `nets`; `heights` of its corners are
@@ -180,7 +181,8 @@ impl<'a> Flatness<'a> {
         let height = |q: DVec3, w: f64| DVec3::new(frame[0].dot(q - foot) * w, frame[1].dot(q - foot) * w, w);
         let (low, high) = self.boxed(&uv);
         let mut nets = self.nets(low, high, height);
-        self.piece(uv, [DVec3::ZERO; 2], limit, CHORD_DEPTH, &mut nets, 0)
+        let heights = uv.map(|uv| nets.at(0, uv));
+        self.piece(uv, heights, limit, CHORD_DEPTH, &mut nets, 0)
     }
 
     /// The same for a part of it; `heights` of its ends are those of the numerator.

@@ -8,6 +8,10 @@ use super::refine::{Refinement, Vertices};
 /// Triangles that look away from the surface and are higher than this part of the tolerance are divided.
 const FOLDED: f64 = 0.05;
 
+/// Corners that are too high over the surface are lowered until triangles are this part of the tolerance off.
+const LOWERED: f64 = 0.9;
+const TOO_HIGH: f64 = 0.95;
+
 /// What points of the surface say of a triangle.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Estimate {
@@ -22,6 +26,8 @@ pub(super) struct Estimate {
     pub(super) longest: f64,
     /// Whether it looks away from the surface.
     pub(super) folded: bool,
+    /// How much lower its corners would have to be over the surface, where they are too high for how it bends.
+    pub(super) lower: [f64; 3],
 }
 
 /// What is known of a triangle.
@@ -33,6 +39,8 @@ pub(super) struct Found {
     pub(super) shares: [f64; 3],
     /// The edge, and where on it (0 to 1), that crosses a crease which matters.
     pub(super) crease: Option<(usize, f64)>,
+    /// How much nearer to the surface its corners should be.
+    pub(super) lower: [f64; 3],
 }
 
 impl Refinement<'_> {
@@ -43,7 +51,7 @@ impl Refinement<'_> {
         }
         let estimate = self.estimate(vertices, triangle, allowed);
         if !prove && estimate.error <= allowed {
-            return Found { error: estimate.error, shares: estimate.shares, crease: None };
+            return Found { error: estimate.error, shares: estimate.shares, ..Found::default() };
         }
         self.proven(vertices, triangle, &estimate, allowed)
     }
@@ -53,7 +61,7 @@ impl Refinement<'_> {
     /// What counts is the distance from the triangle's plane. Where the image of an edge leaves the triangle sideways its
     /// neighbour lies under it, in a plane turned by about the turn of the normal within the triangle.
     pub(super) fn estimate(&self, vertices: &Vertices, triangle: [u32; 3], allowed: f64) -> Estimate {
-        let p = triangle.map(|n| vertices.on_surface[n as usize]);
+        let p = triangle.map(|n| vertices.upright[n as usize]);
         let normals = triangle.map(|n| vertices.normals[n as usize]);
         let edges = [0, 1, 2].map(|k| p[(k + 1) % 3] - p[k]);
         let cross = edges[0].cross(-edges[2]);
@@ -69,9 +77,12 @@ impl Refinement<'_> {
         let turn = if solid { normals.map(sine).into_iter().fold(0.0, f64::max) } else { 0.0 };
         let mut sideways = 0.0f64;
         let mut asides = [0.0; 3];
+        let mut worst = 0.0f64;
         let shares = [0, 1, 2].map(|k| {
             let d = self.middle(vertices, triangle[k], triangle[(k + 1) % 3]) - p[k];
-            let up = d.dot(normal).abs();
+            let height = d.dot(normal);
+            let up = height.abs();
+            worst = if up > worst.abs() { height } else { worst };
             if solid {
                 let out = edges[k].cross(normal).normalize_or_zero();
                 let aside = d.dot(out).abs();
@@ -81,8 +92,13 @@ impl Refinement<'_> {
             up
         });
         let uv = triangle.map(|n| vertices.uvs[n as usize]);
-        let middle = (self.ground.point((uv[0] + uv[1] + uv[2]) / 3.0) - p[0]).dot(normal).abs();
-        let error = shares.into_iter().fold(middle, f64::max) + sideways;
+        let middle = (self.ground.point((uv[0] + uv[1] + uv[2]) / 3.0) - p[0]).dot(normal);
+        worst = if middle.abs() > worst.abs() { middle } else { worst };
+        let corners = [0, 1, 2].map(|k| (vertices.on_surface[triangle[k] as usize] - p[k]).dot(normal));
+        let error = corners.into_iter().map(f64::abs).fold(worst.abs(), f64::max) + sideways;
+        let high = worst.abs() > TOO_HIGH * allowed && error > allowed;
+        let excess = worst.abs() - LOWERED * allowed;
+        let lower = corners.map(|c| if high && c * worst > 0.0 { excess } else { 0.0 });
         let away = normal.dot(normals[0] + normals[1] + normals[2]) < 0.0;
         if solid && away && cross.length() > FOLDED * allowed * longest.sqrt() {
             // Folded over: the surface runs unevenly over its parameters here.
@@ -93,7 +109,7 @@ impl Refinement<'_> {
                 ..Estimate::default()
             };
         }
-        Estimate { error, shares, sideways, normal, longest: longest.sqrt(), folded: false }
+        Estimate { error, shares, sideways, normal, longest: longest.sqrt(), folded: false, lower }
     }
 
     /// What bounds say of a triangle that is `estimate`d to be within the tolerance.
@@ -104,18 +120,18 @@ impl Refinement<'_> {
         estimate: &Estimate,
         allowed: f64,
     ) -> Found {
-        let Estimate { error, shares, sideways, normal, longest, folded } = *estimate;
+        let Estimate { error, shares, sideways, normal, longest, folded, lower } = *estimate;
         let Some(flatness) = self.flatness.filter(|_| !folded) else {
-            return Found { error, shares, crease: None };
+            return Found { error, shares, crease: None, lower };
         };
         let uv = triangle.map(|n| vertices.uvs[n as usize]);
         let crease = if error > 0.25 * allowed { flatness.crossed(&uv, 0.25 * allowed) } else { None };
         // Beside a triangle smaller than the tolerance nothing is far.
         if !(error <= allowed) || longest < 0.1 * allowed {
-            return Found { error, shares, crease };
+            return Found { error, shares, crease, lower };
         }
-        let start = vertices.on_surface[triangle[0] as usize];
+        let start = vertices.upright[triangle[0] as usize];
         let proven = flatness.triangle(uv, (start, normal), allowed - sideways) + sideways;
-        Found { error: proven.max(error), shares, crease }
+        Found { error: proven.max(error), shares, crease, lower }
     }
 }

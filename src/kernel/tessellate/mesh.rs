@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 /// Triangles of a face with what downstream programs ask for per vertex.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FaceMesh {
-    /// Positions, model units. Vertices of the boundary come first, in the order of [`FaceMesh::loops`].
+    /// Positions, model units; off the surface within the tolerance if options let them be. Vertices of the boundary come first, in the order of [`FaceMesh::loops`].
     pub positions: Vec<DVec3>,
     /// Unit normals of the surface along `du x dv`.
     pub normals: Vec<DVec3>,

@@ -4,7 +4,7 @@
 //! surface, which gets a lattice of vertices by its curvature and is divided until it is as close to its triangles as asked
 //! ([`refine`], [`flatness`]); both meet in a
 //! constrained Delaunay triangulation in parameters ([`triangulate`]); folds are turned and superfluous vertices taken out
-//! again. Unlike in the paper no vertex is ever put on a chord
+//! again. Where that takes fewer triangles vertices lie off the surface, within the tolerance (`balance`). Unlike in the paper no vertex is ever put on a chord
 //! where the surface's cells cross it, so that two faces that share chords share all their vertices there.
 //! [`untrimmed()`] gives the surface alone, by the paper's kd-tree.
 //!
@@ -13,6 +13,7 @@
 //! Invariants: the same input gives the same mesh bit for bit; vertices of the boundary are where they were asked to be;
 //! triangles are counter-clockwise against `du x dv`.
 
+mod balance;
 mod bends;
 pub mod bilinear;
 pub mod chords;

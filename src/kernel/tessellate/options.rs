@@ -49,6 +49,8 @@ pub struct TessellationOptions {
     pub gamma: f64,
     /// Whether whole loops of a single face are simplified. Edges shared with other faces never are.
     pub simplify: bool,
+    /// Whether vertices may lie off the surface, within the tolerance, where that takes fewer triangles.
+    pub balanced: bool,
     /// How trim curves are divided.
     pub curve_division: CurveDivision,
     /// How chords are judged.
@@ -74,6 +76,7 @@ impl TessellationOptions {
             max_edge: None,
             gamma: Self::GAMMA,
             simplify: false,
+            balanced: true,
             curve_division: CurveDivision::Even,
             curve_error: CurveError::Line,
             surface_division: SurfaceDivision::KdTree,

@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3};
 use super::lift::{self, HIGHEST_DEGREE};
 use crate::kernel::bezier::{BezierCurve2, BezierCurve3, BezierPatch, Tangents};
 use crate::kernel::face::Face;
+use crate::kernel::nurbs::surface::SurfaceJet;
 use crate::kernel::query::Sheet;
 
 /// A piece of a trim curve on one patch.
@@ -67,6 +68,21 @@ impl<'a> Ground<'a> {
     /// The point at `uv`.
     pub fn point(&self, uv: DVec2) -> DVec3 {
         self.locate(uv).map_or(DVec3::NAN, |(patch, local)| patch.point(local.x, local.y))
+    }
+
+    /// Point, first and second derivatives in native parameters at `uv`.
+    pub fn jet(&self, uv: DVec2) -> Option<SurfaceJet> {
+        let (patch, local) = self.locate(uv)?;
+        let at = patch.jet(local.x, local.y);
+        let per = 1.0 / (patch.uv_max - patch.uv_min);
+        Some(SurfaceJet {
+            point: at.point,
+            du: at.du * per.x,
+            dv: at.dv * per.y,
+            duu: at.duu * (per.x * per.x),
+            duv: at.duv * (per.x * per.y),
+            dvv: at.dvv * (per.y * per.y),
+        })
     }
 
     /// Point and derivatives in native parameters at `uv`.
@@ -155,6 +171,14 @@ impl Run {
         let s = self.project(p, best?.1, (0.0, self.range()));
         let off = self.point(s).distance(p);
         (off <= reach).then_some((s, off))
+    }
+
+    /// The vector towards the centre of curvature at `s`, as long as the curvature.
+    pub fn curvature(&self, s: f64) -> DVec3 {
+        let (piece, t) = self.at(s);
+        let jet = piece.space.jet(t);
+        let squared = jet.d1.length_squared();
+        if squared > 0.0 { (jet.d2 - jet.d1 * (jet.d2.dot(jet.d1) / squared)) / squared } else { DVec3::ZERO }
     }
 
     /// First and last point.

@@ -12,6 +12,8 @@ use std::hash::{BuildHasherDefault, Hasher};
 use glam::{DVec2, DVec3};
 use spade::handles::FixedVertexHandle;
 
+use super::balance::{Bend, OF_DISTANCE};
+use super::chords::EdgeSample;
 use super::flatness::Flatness;
 use super::judgement::{Estimate, Found};
 use super::line_error::distance_to_segment;
@@ -32,8 +34,29 @@ pub struct Vertices {
     pub on_surface: Vec<DVec3>,
     /// Positions in the mesh: shared ones on the boundary.
     pub positions: Vec<DVec3>,
+    /// The same straight above the points of the surface: what a vertex lies aside makes no triangle worse.
+    pub upright: Vec<DVec3>,
     /// Unit normals of the surface.
     pub normals: Vec<DVec3>,
+    /// How far shared positions lie off the surface by no choice of ours.
+    pub gaps: Vec<f64>,
+    /// How many, from the first on, belong to the boundary.
+    pub fixed: usize,
+}
+
+impl Vertices {
+    /// Puts a vertex inside nearer to the surface, where it is farther off than `most`.
+    fn lower(&mut self, k: usize, most: f64) -> bool {
+        let p = self.on_surface[k];
+        let off = self.upright[k] - p;
+        let far = off.length();
+        if !(far > most) || k < self.fixed {
+            return false;
+        }
+        self.upright[k] = p + off * (most / far);
+        self.positions[k] = self.upright[k];
+        true
+    }
 }
 
 /// Everything a refinement looks at.
@@ -105,6 +128,8 @@ struct Task {
     error: f64,
     /// Whether it is the tolerance that it is over.
     over: bool,
+    /// How much nearer to the surface its corners are put before it is divided.
+    lower: [f64; 3],
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -138,9 +163,11 @@ const STANDS_OUT: f64 = 0.55;
 /// A boundary chord that alone brings in this share of the allowed error is at fault itself.
 const AT_FAULT: f64 = 0.985;
 /// Vertices stay away from chords by this multiple of what the chord bends.
-const NEAR: f64 = 2.0;
+const NEAR: f64 = 1.5;
 /// Lattice vertices keep this part of their spacing from others and from chords.
 const CLEAR: f64 = 0.45;
+/// Triangles with corners off the surface may be this part of the tolerance worse than these.
+const LEAST: f64 = 0.5;
 /// Edges shorter than this part of the face's parameters are not divided.
 const SHORTEST: f64 = 1e-7;
 
@@ -181,6 +208,7 @@ impl Refinement<'_> {
             self.judge(region, vertices, corners, &mut queue, refined, prove);
         }
         let mut steps = 0usize;
+        let mut around = Vec::new();
         while let Some(task) = queue.pop() {
             steps += 1;
             if steps.is_multiple_of(256) && cancelled() {
@@ -188,6 +216,12 @@ impl Refinement<'_> {
             }
             let Some(bounds) = region.standing(task.corners) else { continue };
             let numbers = task.corners.map(|c| region.number(c));
+            if self.lower(region, vertices, &task, &mut around) {
+                for corners in around.drain(..) {
+                    self.judge(region, vertices, corners, &mut queue, refined, prove);
+                }
+                continue;
+            }
             let uv = numbers.map(|n| vertices.uvs[n as usize]);
             let at = match task.divide {
                 Divide::Edge(k) if !bounds[k] => 0.5 * (uv[k] + uv[(k + 1) % 3]),
@@ -269,21 +303,97 @@ impl Refinement<'_> {
     ) -> Option<Vec<[FixedVertexHandle; 3]>> {
         let number = vertices.uvs.len() as u32;
         let place = self.plane.map_or(uv * self.scale, |plane| plane.coordinates(self.ground.point(uv)));
-        let around = region.insert(place, number, hint)?;
-        self.add(vertices, uv);
+        let mut around = region.insert(place, number, hint)?;
+        self.add_balanced(vertices, uv);
+        if self.options.balanced && self.plane.is_none() {
+            self.settle(region, vertices, number, &mut around);
+        }
         Some(around)
+    }
+
+    /// Keeps a new vertex and its neighbours from standing off the surface by much of their distance: triangles would lean.
+    /// Adds the triangles round neighbours that are put nearer to `around`.
+    fn settle(
+        &self,
+        region: &Region,
+        vertices: &mut Vertices,
+        number: u32,
+        around: &mut Vec<[FixedVertexHandle; 3]>,
+    ) {
+        for k in 0..around.len() {
+            for corner in around[k] {
+                let other = region.number(corner);
+                if other == number {
+                    continue;
+                }
+                let (a, b) = (number as usize, other as usize);
+                let apart = vertices.on_surface[a].distance(vertices.on_surface[b]);
+                vertices.lower(a, OF_DISTANCE * apart);
+                if vertices.lower(b, OF_DISTANCE * apart) {
+                    around.extend(region.star(corner));
+                }
+            }
+        }
+    }
+
+    /// Puts corners of a triangle that are too high for how the surface bends nearer to it, and the triangles there into
+    /// `around`; whether there were any.
+    fn lower(
+        &self,
+        region: &Region,
+        vertices: &mut Vertices,
+        task: &Task,
+        around: &mut Vec<[FixedVertexHandle; 3]>,
+    ) -> bool {
+        for (corner, less) in task.corners.iter().zip(task.lower).filter(|c| c.1 > 0.0) {
+            let k = region.number(*corner) as usize;
+            let most = vertices.upright[k].distance(vertices.on_surface[k]) - less;
+            if vertices.lower(k, most.max(0.0)) {
+                around.extend(region.star(*corner));
+            }
+        }
+        !around.is_empty()
     }
 
     /// Adds a vertex on the surface.
     pub fn add(&self, vertices: &mut Vertices, uv: DVec2) {
         let p = self.ground.point(uv);
+        vertices.gaps.push(0.0);
         vertices.uvs.push(uv);
         vertices.on_surface.push(p);
         vertices.positions.push(p);
+        vertices.upright.push(p);
         vertices.normals.push(match self.plane {
             Some(plane) => plane.normal(),
             None => normal(self.ground, uv, &self.domain, 1e-6 * self.domain.size()),
         });
+    }
+
+    /// Adds a vertex of the boundary.
+    pub(super) fn add_sample(&self, vertices: &mut Vertices, sample: &EdgeSample) {
+        self.add(vertices, sample.uv);
+        let last = vertices.uvs.len() - 1;
+        let (p, normal) = (vertices.on_surface[last], vertices.normals[last]);
+        let off = sample.point - p;
+        vertices.positions[last] = sample.point;
+        vertices.upright[last] = p + normal * off.dot(normal);
+        vertices.gaps[last] = (off - sample.off).dot(normal).abs();
+    }
+
+    /// Adds a vertex off the surface, if that is wanted, on the side where triangles are nearer to it.
+    fn add_balanced(&self, vertices: &mut Vertices, uv: DVec2) {
+        let jet = if self.plane.is_none() { self.ground.jet(uv) } else { None };
+        let Some((jet, bend)) = jet.and_then(|jet| Some((jet, Bend::new(&jet)?))) else {
+            self.add(vertices, uv);
+            return;
+        };
+        vertices.uvs.push(uv);
+        vertices.on_surface.push(jet.point);
+        let shift = if self.options.balanced { bend.shift(self.options.tolerance) } else { 0.0 };
+        vertices.positions.push(jet.point + bend.normal * shift);
+        vertices.upright.push(jet.point + bend.normal * shift);
+        vertices.normals.push(bend.normal);
+        vertices.gaps.push(0.0);
     }
 
     /// Measures a triangle; queues it when it is over a limit.
@@ -298,9 +408,9 @@ impl Refinement<'_> {
     ) {
         let numbers = corners.map(|c| region.number(c));
         let uv = numbers.map(|n| vertices.uvs[n as usize]);
-        let (gap, allowed) = (gap(vertices, &numbers), self.allowed(vertices, &numbers));
+        let allowed = self.allowed(vertices, &numbers);
         let normals = numbers.map(|n| vertices.normals[n as usize]);
-        let Found { error, shares, crease } = self.error(vertices, numbers, allowed, prove);
+        let Found { error, shares, crease, lower } = self.error(vertices, numbers, allowed, prove);
         let mut excess = error / allowed;
         let Some(bounds) = region.standing(corners) else { return };
         let mut divide = self.weakest(&bounds, shares, allowed, (vertices, &numbers), refined, excess > 1.0);
@@ -337,14 +447,14 @@ impl Refinement<'_> {
             }
         }
         if !(excess > 1.0) {
-            refined.error = refined.error.max(error + gap);
+            refined.error = refined.error.max(error);
             return;
         }
         let size = self.domain.size();
         let extent = [0, 1, 2].map(|k| ((uv[(k + 1) % 3] - uv[k]) / size).abs().max_element());
         let small = extent.into_iter().fold(0.0, f64::max) < SHORTEST;
         let over = !(error <= allowed);
-        let task = |divide| Task { excess, corners, divide, error: error + gap, over };
+        let task = |divide| Task { excess, corners, divide, error, over, lower };
         match divide {
             Some(divide) if !small => queue.push(task(divide)),
             _ => refined.give_up(&task(Divide::Middle)),
@@ -372,7 +482,7 @@ impl Refinement<'_> {
                 let off = match self.flatness {
                     Some(flatness) => flatness.chord(
                         n.map(|n| vertices.uvs[n as usize]),
-                        n.map(|n| vertices.on_surface[n as usize]),
+                        n.map(|n| vertices.upright[n as usize]),
                         AT_FAULT * allowed,
                     ),
                     None => shares[k],
@@ -427,15 +537,16 @@ impl Refinement<'_> {
         })
     }
 
-    /// What gaps at the corners of a triangle leave of the tolerance.
+    /// The tolerance; more at corners so far off the surface that no triangle there could keep it.
     fn allowed(&self, vertices: &Vertices, numbers: &[u32; 3]) -> f64 {
         let tolerance = self.options.tolerance;
-        (tolerance - gap(vertices, numbers)).max(0.5 * tolerance)
+        let gap = numbers.iter().map(|n| vertices.gaps[*n as usize]).fold(0.0, f64::max);
+        tolerance.max(gap + LEAST * tolerance)
     }
 
     /// Whether a triangle could keep the tolerance with the surface's point `p` over it, as far as its plane goes.
     pub fn reaches(&self, vertices: &Vertices, triangle: &[u32; 3], p: DVec3) -> bool {
-        let [a, b, c] = triangle.map(|n| vertices.on_surface[n as usize]);
+        let [a, b, c] = triangle.map(|n| vertices.upright[n as usize]);
         let normal = (b - a).cross(c - a);
         (p - a).dot(normal).abs() <= self.allowed(vertices, triangle) * normal.length()
     }
@@ -449,17 +560,6 @@ impl Refinement<'_> {
             .entry(key)
             .or_insert_with(|| self.ground.point(0.5 * (vertices.uvs[a as usize] + vertices.uvs[b as usize])))
     }
-}
-
-/// The largest gap at the corners of a triangle.
-fn gap(vertices: &Vertices, triangle: &[u32; 3]) -> f64 {
-    triangle.iter().map(|n| p_gap(vertices, *n)).fold(0.0, f64::max)
-}
-
-/// How far a vertex lies off its surface. What it lies aside of its place on the surface makes no triangle worse.
-fn p_gap(vertices: &Vertices, n: u32) -> f64 {
-    let n = n as usize;
-    (vertices.positions[n] - vertices.on_surface[n]).dot(vertices.normals[n]).abs()
 }
 
 fn free_longest(lengths: &[f64; 3], bounds: &[bool; 3]) -> Option<usize> {

@@ -31,7 +31,8 @@ pub(super) struct Seed {
 /// About how many lattice vertices the part `bounds` of a face takes, were all of it inside.
 pub(super) fn expected(bends: &Bends, bounds: &UvRect, tolerance: f64) -> f64 {
     let area = bounds.size().x * bounds.size().y / (HEIGHT * SIDE * 2.0 * PART * tolerance);
-    let mean = bends.bends.iter().map(|b| (b.x * b.y).sqrt()).sum::<f64>() / bends.bends.len() as f64;
+    let all = bends.bends.iter().zip(&bends.depths);
+    let mean = all.map(|(b, depth)| (b.x * b.y).sqrt() / depth).sum::<f64>() / bends.bends.len() as f64;
     let count = area * mean;
     if count.is_finite() { count } else { 0.0 }
 }
@@ -128,7 +129,12 @@ mod tests {
     #[test]
     fn lattices_follow_the_curvature_and_developable_faces_have_none() {
         let bounds = UvRect { min: DVec2::ZERO, max: DVec2::new(1.0, 2.0) };
-        let even = Bends { bounds, bends: [DVec2::new(8.0, 8.0); SAMPLES * SAMPLES] };
+        let even = Bends {
+            bounds,
+            bends: [DVec2::new(8.0, 8.0); SAMPLES * SAMPLES],
+            twist: 0.0,
+            depths: [1.0; SAMPLES * SAMPLES],
+        };
         let found = seeds(&even, &bounds, 1e-3, 100_000).expect("not too many");
         let (radius, area) = ((2.0 * PART * 1e-3 / 8.0f64).sqrt(), 2.0);
         let expected = area / (SIDE * HEIGHT * radius * radius);
@@ -136,7 +142,12 @@ mod tests {
         assert!(found.iter().all(|s| s.uv.cmpgt(bounds.min).all() && s.uv.cmplt(bounds.max).all()));
         assert!((found.len() as f64 / super::expected(&even, &bounds, 1e-3) - 1.0).abs() < 0.1);
         assert_eq!(seeds(&even, &bounds, 1e-3, 100), None);
-        let bent_once = Bends { bounds, bends: [DVec2::new(8.0, 0.0); SAMPLES * SAMPLES] };
+        let bent_once = Bends {
+            bounds,
+            bends: [DVec2::new(8.0, 0.0); SAMPLES * SAMPLES],
+            twist: 0.0,
+            depths: [1.0; SAMPLES * SAMPLES],
+        };
         assert_eq!(seeds(&bent_once, &bounds, 1e-3, 100_000), Some(Vec::new()));
     }
 }

@@ -61,8 +61,9 @@ mod tests {
         let at = |k: usize| {
             if k <= 10 { DVec3::new(k as f64, 0.0, 0.0) } else { DVec3::new(10.0, (k - 10) as f64, 0.0) }
         };
-        let samples: Vec<EdgeSample> =
-            (0..=20).map(|k| EdgeSample { s: k as f64, uv: DVec2::ZERO, point: at(k) }).collect();
+        let samples: Vec<EdgeSample> = (0..=20)
+            .map(|k| EdgeSample { s: k as f64, uv: DVec2::ZERO, point: at(k), off: DVec3::ZERO })
+            .collect();
         let kept = simplify(&samples, 0.1, f64::INFINITY);
         assert_eq!(kept.iter().map(|s| s.s).collect::<Vec<_>>(), [0.0, 10.0, 20.0]);
         assert_eq!(simplify(&samples, 0.1, 4.0).len(), 7);

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use glam::DVec3;
+
 use super::chords::{STEP, halve_chord, is_common};
 use super::mesh::FaceMesh;
 use super::options::{TessellateError, TessellationOptions};
@@ -69,10 +71,14 @@ impl Tessellator<'_> {
             let LongChord { chain, run, .. } = group[0];
             let samples = &mut boundary[chain][run];
             let source = &self.outline().chains[chain][run];
-            if is_common(group.len(), samples.len() - 1) {
+            let crossed = group.iter().any(|c| c.crossed);
+            if crossed && samples.iter().any(|s| s.off != DVec3::ZERO) {
+                let part = parts.get(&(chain, run)).copied().unwrap_or(1.0);
+                *samples = self.divide(source, part, true);
+            } else if is_common(group.len(), samples.len() - 1) {
                 let part = parts.entry((chain, run)).or_insert(1.0);
                 *part *= STEP;
-                *samples = self.divide(source, *part);
+                *samples = self.divide(source, *part, crossed || !self.leaves_room());
             } else {
                 for chord in group.iter().rev() {
                     halve_chord(source, samples, chord.index);

@@ -34,6 +34,8 @@ pub struct LongChord {
     pub run: usize,
     /// Sample that it starts from.
     pub index: usize,
+    /// Whether it crosses another or makes triangles fold.
+    pub crossed: bool,
 }
 
 /// A face ready to be meshed.
@@ -83,7 +85,7 @@ impl<'a> Tessellator<'a> {
         let outline = if options.simplify { outline.joined() } else { outline };
         let plane = Plane::of(&ground, FLAT * options.tolerance);
         let flatness = (options.conservative && plane.is_none()).then(|| Flatness::new(&ground));
-        let bent = plane.is_none().then(|| Bends::new(&ground, &face.domain));
+        let bent = plane.is_none().then(|| Bends::new(&ground, &face.domain, options.balanced));
         let scale = bent
             .as_ref()
             .map_or(DVec2::ONE, |(bends, speed)| scale(bends, *speed, face.domain.size(), options.tolerance));
@@ -105,6 +107,18 @@ impl<'a> Tessellator<'a> {
         &self.outline
     }
 
+    /// Whether triangles leave enough of the tolerance to chords that pass through their curves: on planes, and where straight
+    /// lines run along one of the parameters, all the way at one normal.
+    pub fn leaves_room(&self) -> bool {
+        /// Part of the tolerance that twisting may take.
+        const TWISTED: f64 = 0.1;
+        let size = self.face.domain.size();
+        let twist = self.bends.as_ref().map_or(0.0, |b| 0.25 * b.twist * size.x * size.y);
+        let patches = || self.ground.patches().iter();
+        let ruled = patches().all(|p| p.degree_u == 1) || patches().all(|p| p.degree_v == 1);
+        self.plane.is_some() || ruled && twist <= TWISTED * self.tolerance
+    }
+
     /// The tolerance that was asked for.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
@@ -113,8 +127,9 @@ impl<'a> Tessellator<'a> {
     /// Chords of every run by the face's own choice: a function of the run alone.
     pub fn own_boundary(&self) -> Boundary {
         let runs = self.outline.chains.iter();
-        let mut boundary: Boundary =
-            runs.map(|chain| chain.iter().map(|run| self.divide(run, 1.0)).collect()).collect();
+        let mut boundary: Boundary = runs
+            .map(|chain| chain.iter().map(|run| self.divide(run, 1.0, !self.leaves_room())).collect())
+            .collect();
         // Runs that are nothing but rounding (poles) are one point.
         for runs in &mut boundary {
             let count = runs.len();
@@ -141,16 +156,18 @@ impl<'a> Tessellator<'a> {
         boundary
     }
 
-    /// Chords of one run, for a part of the tolerance.
-    pub fn divide(&self, run: &Run, part: f64) -> Vec<EdgeSample> {
+    /// Chords of one run, for a part of the tolerance; between points of the run where they are to be `plain`.
+    pub fn divide(&self, run: &Run, part: f64, plain: bool) -> Vec<EdgeSample> {
         let mut limits = ChordLimits::new(&self.options);
+        limits.balanced &= !plain;
         limits.tolerance *= CHORD_SHARE * part;
         divide(run, &limits, &self.options)
     }
 
     /// The same for the part of a run between two parameters.
-    pub fn divide_part(&self, run: &Run, range: (f64, f64), part: f64) -> Vec<EdgeSample> {
+    pub fn divide_part(&self, run: &Run, range: (f64, f64), part: f64, plain: bool) -> Vec<EdgeSample> {
         let mut limits = ChordLimits::new(&self.options);
+        limits.balanced &= !plain;
         limits.tolerance *= CHORD_SHARE * part;
         divide_part(run, range, &limits, &self.options)
     }
@@ -184,14 +201,14 @@ impl<'a> Tessellator<'a> {
             let mut ring = Vec::new();
             for (run, samples) in runs.iter().enumerate() {
                 for (index, pair) in samples.windows(2).enumerate() {
-                    let owner = LongChord { chain, run, index };
+                    let owner = LongChord { chain, run, index, crossed: false };
                     for sample in self.along(pair, scale) {
                         let number = vertices.uvs.len() as u32;
                         ring.push((number, owner));
-                        refinement.add(&mut vertices, sample.uv);
+                        refinement.add_sample(&mut vertices, &sample);
                         let last = vertices.positions.len() - 1;
-                        vertices.positions[last] = sample.point;
-                        quality.gap = quality.gap.max(sample.point.distance(vertices.on_surface[last]));
+                        let gap = (sample.point - sample.off).distance(vertices.on_surface[last]);
+                        quality.gap = quality.gap.max(gap);
                         if !(sample.point.is_finite() && vertices.on_surface[last].is_finite()) {
                             return Err(TessellateError::NotFinite { u: sample.uv.x, v: sample.uv.y });
                         }
@@ -214,13 +231,13 @@ impl<'a> Tessellator<'a> {
         quality.crossings = crossings.places.len();
         for (a, b) in &crossings.pairs {
             for chord in [*a, *b, [a[1], a[0]], [b[1], b[0]]] {
-                long.extend(owners.get(&chord));
+                long.extend(owners.get(&chord).map(|c| LongChord { crossed: true, ..*c }));
             }
         }
         for place in &crossings.places {
             self.add_crossing(*place, &refinement, &mut vertices);
         }
-        let fixed = vertices.uvs.len();
+        vertices.fixed = vertices.uvs.len();
         if !(self.plane.is_some() && self.options.max_edge.is_none()) {
             self.sow(&refinement, &mut region, &mut vertices)?;
             let refined = refinement.run(&mut region, &mut vertices, cancelled)?;
@@ -239,9 +256,10 @@ impl<'a> Tessellator<'a> {
         if self.plane.is_none() {
             let within = |t: [u32; 3]| refinement.hold(&vertices, std::iter::once(t));
             untangle(&mut triangles, &vertices, within);
-            decimate(&mut triangles, &vertices, fixed, &refinement, cancelled);
+            decimate(&mut triangles, &vertices, &refinement, cancelled);
             for [a, b] in folded(&vertices, &triangles) {
-                long.extend(owners.get(&[a, b]).or_else(|| owners.get(&[b, a])));
+                let owner = owners.get(&[a, b]).or_else(|| owners.get(&[b, a]));
+                long.extend(owner.map(|c| LongChord { crossed: true, ..*c }));
             }
         }
         let mesh = finish(vertices, triangles, loops, quality);
@@ -261,11 +279,11 @@ impl<'a> Tessellator<'a> {
             for (run, samples) in runs.iter().enumerate() {
                 for (index, pair) in samples.windows(2).enumerate() {
                     let uv = [pair[0].uv, pair[1].uv];
-                    let p = uv.map(|uv| self.ground.point(uv));
+                    let p = [0, 1].map(|k| self.ground.point(uv[k]) + pair[k].off);
                     if flatness.chord(uv, p, CHORD_LIMIT * self.tolerance) > CHORD_LIMIT * self.tolerance
                         && p[0].distance(p[1]) > 1e-3 * self.tolerance
                     {
-                        long.push(LongChord { chain, run, index });
+                        long.push(LongChord { chain, run, index, crossed: false });
                     }
                 }
             }
@@ -349,6 +367,8 @@ impl<'a> Tessellator<'a> {
                 vertices.uvs.push(self.face.domain.min);
                 vertices.on_surface.push(p);
                 vertices.positions.push(p);
+                vertices.upright.push(p);
+                vertices.gaps.push(0.0);
                 vertices.normals.push(plane.normal());
             }
         }

@@ -274,6 +274,12 @@ impl Region {
         Some(around.into_iter().map(|f| self.delaunay.face(f).vertices().map(|v| v.fix())).collect())
     }
 
+    /// The triangles inside that have a vertex as a corner.
+    pub fn star(&self, vertex: FixedVertexHandle) -> impl Iterator<Item = [FixedVertexHandle; 3]> {
+        let faces = self.delaunay.vertex(vertex).out_edges().filter_map(|e| e.face().as_inner());
+        faces.filter(|f| *f.data() == Side::Inside).map(|f| f.vertices().map(|v| v.fix()))
+    }
+
     /// Whether a place is not so near to a chord of the triangle that the triangle between them would be a sliver.
     fn is_clear(&self, face: FixedFaceHandle<InnerTag>, at: DVec2) -> bool {
         const NEAREST: f64 = 0.01;

@@ -94,8 +94,11 @@ mod tests {
         let vertices = Vertices {
             uvs: uvs.to_vec(),
             on_surface: positions.clone(),
+            upright: positions.clone(),
             positions,
             normals: vec![DVec3::Z; 4],
+            gaps: vec![0.0; 4],
+            fixed: 4,
         };
         let mut triangles = [[0, 1, 2], [0, 2, 3]];
         assert!(facing(&triangles[0], &vertices) < 0.0);
