@@ -4,7 +4,6 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::time::Instant;
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::arguments::TessellateArguments;
@@ -16,7 +15,7 @@ use crate::inspect::Length;
 use crate::kernel::face::Face;
 use crate::kernel::tessellate::{FaceMesh, TessellateError, TessellationOptions};
 use crate::kernel::view::Bounds;
-use crate::meshing::{Distance, ModelMesh, Work, measure_each, mesh_faces, orientations};
+use crate::meshing::{Distance, ModelMesh, Work, measure_each, mesh_edges, mesh_faces, orientations};
 use crate::scene::records::{FaceRecord, ModelRecord};
 
 /// A format that can be written.
@@ -217,21 +216,7 @@ pub fn statistics(
     options: &TessellationOptions,
 ) -> Statistics {
     let meshes = || mesh.faces.iter().flatten();
-    let mut sides: Vec<[[u64; 3]; 2]> = meshes()
-        .flat_map(|m| {
-            let key = |v: u32| (m.positions[v as usize] + 0.0).to_array().map(f64::to_bits);
-            m.triangles.iter().flat_map(move |[a, b, c]| [[*a, *b], [*b, *c], [*c, *a]]).map(move |e| {
-                let [a, b] = e.map(key);
-                [a.min(b), a.max(b)]
-            })
-        })
-        .collect();
-    sides.par_sort_unstable();
-    let (mut edges, mut open_edges) = (0, 0);
-    for same in sides.chunk_by(|a, b| a == b) {
-        edges += 1;
-        open_edges += usize::from(same.len() == 1);
-    }
+    let all_edges = mesh_edges(mesh);
     let left_out = mesh.faces.iter().enumerate();
     let each = measure_each(faces, mesh, DENSITY, SAMPLES);
     let doubt = |(k, m): (usize, &FaceMesh)| {
@@ -250,8 +235,8 @@ pub fn statistics(
         faces: meshes().count(),
         left_out: left_out.filter_map(|(k, m)| Some((k + 1, m.as_ref().err()?.to_string()))).collect(),
         triangles: mesh.triangle_count(),
-        edges,
-        open_edges,
+        edges: all_edges.len(),
+        open_edges: all_edges.iter().filter(|e| e.is_open()).count(),
         measured: each.iter().flatten().fold(Distance::default(), |all, d| all.join(*d)),
         unproved: meshed.filter_map(doubt).collect(),
         over_tolerance: meshes().map(|m| m.quality.over_tolerance).sum(),

@@ -14,6 +14,7 @@ use crate::kernel::bezier::BezierCurve3;
 use crate::kernel::face::{Face, Side};
 use crate::kernel::query::{BoundsTree, closest_on_surface};
 use crate::kernel::tessellate::line_error::distance_to_segment;
+use crate::kernel::tessellate::outline::LiftedPiece;
 use crate::kernel::tessellate::{FaceMesh, Ground, Outline};
 use crate::kernel::view::Bounds;
 
@@ -145,14 +146,19 @@ impl<'a> Target<'a> {
     pub(super) fn new(face: &'a Face) -> Self {
         let ground = Ground::new(face);
         let outline = Outline::new(face, &ground, 1e-6 * face.bounds.diagonal());
-        let curves: Vec<BezierCurve3> =
-            outline.runs().flat_map(|(_, _, run)| &run.pieces).map(|p| p.space.clone()).collect();
+        let pieces: Vec<&LiftedPiece> = outline.runs().flat_map(|(_, _, run)| &run.pieces).collect();
+        let curves: Vec<BezierCurve3> = pieces.iter().map(|p| p.space.clone()).collect();
         let (mut points, mut parts, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
-        for (number, curve) in curves.iter().enumerate() {
+        for (number, piece) in pieces.iter().enumerate() {
+            let curve = &piece.space;
             let count = if curve.degree() == 1 { 2 } else { PARTS };
             for k in 0..count {
                 let (from, to) = (k as f64 / count as f64, (k + 1) as f64 / count as f64);
-                points.push(curve.point(from));
+                if bounds_face(face, piece, from) {
+                    points.push(curve.point(from));
+                } else if !bounds_face(face, piece, 0.5 * (from + to)) && !bounds_face(face, piece, to) {
+                    continue;
+                }
                 parts.push((number, from, to));
                 boxes.push(Bounds::of(curve.restrict(from, to).points));
             }
@@ -228,6 +234,17 @@ impl<'a> Target<'a> {
     }
 }
 
+/// Whether the face is on either side of its outline at `t` of a piece. Where two loops run along each other (a hole that ends
+/// on the rim of the surface, or beyond it) it is on neither, and the outline there is no part of it.
+fn bounds_face(face: &Face, piece: &LiftedPiece, t: f64) -> bool {
+    /// How far aside is looked, as a part of the domain.
+    const ASIDE: f64 = 1e-6;
+    let (at, along) = piece.uv.tangent(t);
+    let size = face.domain.size();
+    let across = ASIDE * size * (along / size).perp().normalize_or(DVec2::X);
+    [at + across, at - across].iter().any(|p| face.classify_native(p.x, p.y) == Side::In)
+}
+
 /// Foot of `p` on the surface, going downhill from `start`; and the distance.
 fn project(ground: &Ground, p: DVec3, start: DVec2) -> (DVec2, f64) {
     let mut uv = start;
@@ -288,4 +305,39 @@ fn to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
         }
     }
     distance_to_segment(p, a, b).min(distance_to_segment(p, b, c)).min(distance_to_segment(p, c, a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::nurbs::{KnotVector, NurbsCurve2, NurbsSurface};
+    use crate::kernel::tessellate::{TessellationOptions, tessellate};
+    use crate::kernel::trim::loop_record::{LoopRecord, LoopRole};
+
+    fn knots() -> KnotVector {
+        KnotVector::new(1, vec![0.0, 0.0, 1.0, 1.0]).expect("knots")
+    }
+
+    /// A closed loop of lines.
+    fn lines(role: LoopRole, corners: &[(f64, f64)]) -> LoopRecord {
+        let at = |k: usize| DVec2::from(corners[k % corners.len()]);
+        let line = |k| NurbsCurve2::new(knots(), vec![at(k), at(k + 1)], vec![1.0; 2]).expect("a line");
+        LoopRecord::new(role, (0..corners.len()).map(line).collect())
+    }
+
+    #[test]
+    fn where_a_hole_ends_on_the_rim_the_rim_is_no_part_of_the_face() {
+        let points = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+        let surface = NurbsSurface::new(knots(), knots(), points.to_vec(), vec![1.0; 4]).expect("a surface");
+        let rim = lines(LoopRole::Outer, &[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
+        for below in [0.0, -0.3] {
+            let hole = [(0.4, below), (0.4, 0.5), (0.6, 0.5), (0.6, below)];
+            let hole = lines(LoopRole::Inner, &hole);
+            let face = Face::derive(&surface, &[rim.clone(), hole]).expect("a face");
+            let mesh = tessellate(&face, &TessellationOptions::new(1e-3)).expect("a mesh");
+            assert!((mesh.area() - 0.9).abs() < 1e-6, "{}", mesh.area());
+            let found = measure_face(&face, &mesh, 4, 4000);
+            assert!(found.largest() < 1e-6, "{found:?}");
+        }
+    }
 }

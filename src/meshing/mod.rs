@@ -12,7 +12,9 @@ pub mod edges;
 pub mod measure;
 pub mod model_mesh;
 pub mod orient;
+mod pairing;
 pub mod seams;
+mod stretches;
 
 pub use deviation::{deviations, face_deviations};
 pub use edges::{MeshEdge, mesh_edges};

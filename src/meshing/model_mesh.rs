@@ -62,9 +62,13 @@ const MESH_ROUNDS: usize = 10;
 const SURELY: f64 = 1.25;
 /// Share of the tolerance within which outlines meet.
 const REACH: f64 = 0.5;
-/// The same as a part of the model's size, at most and at least.
+/// The same as a part of the model's size, at most and at least; the most is also how far apart two borders may be that have
+/// no other neighbour.
 const FARTHEST: f64 = 4e-4;
 const NEAREST: f64 = 1e-9;
+
+/// Chords within this part of the tolerance are points.
+const POINT: f64 = 1e-3;
 
 /// Meshes `faces` (`None` for those that could not be derived) with common vertices.
 ///
@@ -117,8 +121,9 @@ pub fn remesh_faces(
     (work.progress)(0.1);
     let bounds = faces.iter().flatten().fold(Bounds::EMPTY, |b, f| b.union(f.bounds));
     let size = bounds.diagonal();
-    let reach = (REACH * options.tolerance).min(FARTHEST * size).max(NEAREST * size);
-    let seams = Seams::new(&prepared, reach);
+    let farthest = FARTHEST * size;
+    let reach = (REACH * options.tolerance).min(farthest).max(NEAREST * size);
+    let seams = Seams::new(&prepared, reach, farthest);
     let too_many = TessellateError::TooManyTriangles { limit: options.triangle_limit };
     let Some(mut division) = Division::new(&seams, &prepared, options.triangle_limit) else {
         return Err(too_many);
@@ -225,7 +230,7 @@ pub fn remesh_faces(
     let faces = meshes
         .into_iter()
         .map(|m| m.unwrap_or(Err(TessellateError::Empty)))
-        .map(|m| m.and_then(|m| if m.triangles.is_empty() { Err(TessellateError::Empty) } else { Ok(m) }))
+        .map(|m| m.and_then(|m| if m.triangles.is_empty() { Err(TessellateError::Narrow) } else { Ok(m) }))
         .collect();
     Ok(ModelMesh { faces, boundaries, seams: seams.seams.len() })
 }
@@ -234,6 +239,8 @@ pub fn remesh_faces(
 struct Division<'s, 'f, 'a> {
     seams: &'s Seams,
     faces: &'f [Option<Tessellator<'a>>],
+    /// How far the vertices of each seam are off its stretches.
+    gaps: Vec<f64>,
     /// Samples of each seam on its first stretch.
     samples: Vec<Vec<EdgeSample>>,
     /// Part of the tolerance that each seam is divided for.
@@ -253,18 +260,23 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
             stretches.entry((a.face, a.chain, a.run)).or_default().push(k);
         }
         let chords = AtomicUsize::new(0);
+        let gaps: Vec<f64> =
+            (0..seams.seams.len()).into_par_iter().map(|seam| seams.gap(seam, faces)).collect();
         let room = |k: &usize| {
             faces[seams.stretches[*k].address.face].as_ref().is_some_and(Tessellator::leaves_room)
         };
-        let plain: Vec<bool> = seams.seams.iter().map(|s| !s.stretches.iter().all(room)).collect();
+        let all = seams.seams.iter().enumerate();
+        let plain: Vec<bool> =
+            all.map(|(k, s)| seams.is_apart(k, faces, gaps[k]) || !s.stretches.iter().all(room)).collect();
         let divide = |seam: usize| {
-            let samples = seams.divide(seam, faces, 1.0, plain[seam]);
+            let samples = seams.divide(seam, faces, 1.0, plain[seam], gaps[seam]);
             let own = samples.len().saturating_sub(1);
             // Stretches that are points have no triangles.
             (own == 1 || chords.fetch_add(own, Ordering::Relaxed) + own <= limit).then_some(samples)
         };
         let samples = (0..seams.seams.len()).into_par_iter().map(divide).collect::<Option<_>>()?;
-        Some(Self { seams, faces, samples, parts: vec![1.0; seams.seams.len()], plain, stretches })
+        let parts = vec![1.0; seams.seams.len()];
+        Some(Self { seams, faces, gaps, samples, parts, plain, stretches })
     }
 
     /// The chords of a face.
@@ -325,22 +337,37 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
             }
         }
         let mut faces = BTreeSet::new();
-        for (seam, chords) in wanted {
+        for (seam, mut chords) in wanted {
             let first = &self.seams.stretches[self.seams.seams[seam].stretches[0]];
+            // A side that is a point has nothing to be divided.
+            if let Some((face, run)) = run_of(self.faces, &first.address) {
+                let samples = &self.samples[seam];
+                chords.retain(|k| {
+                    let [a, b] = [samples[*k], samples[*k + 1]];
+                    let middle = run.point(0.5 * (a.s + b.s));
+                    middle.distance(a.point).max(middle.distance(b.point)) > POINT * face.tolerance()
+                });
+            }
+            if chords.is_empty() {
+                continue;
+            }
             faces.extend(
                 self.seams.seams[seam].stretches.iter().map(|k| self.seams.stretches[*k].address.face),
             );
             self.plain[seam] |= crossed.contains(&seam);
             let plain = self.plain[seam];
             if plain && self.samples[seam].iter().any(|s| s.off != DVec3::ZERO) {
-                self.samples[seam] = self.seams.divide(seam, self.faces, self.parts[seam], true);
+                self.samples[seam] =
+                    self.seams.divide(seam, self.faces, self.parts[seam], true, self.gaps[seam]);
             } else if is_common(chords.len(), self.samples[seam].len().saturating_sub(1)) {
                 self.parts[seam] *= STEP;
-                self.samples[seam] = self.seams.divide(seam, self.faces, self.parts[seam], plain);
+                self.samples[seam] =
+                    self.seams.divide(seam, self.faces, self.parts[seam], plain, self.gaps[seam]);
             } else if let Some((_, run)) = run_of(self.faces, &first.address) {
                 for chord in chords.into_iter().rev() {
                     halve_chord(run, &mut self.samples[seam], chord);
                 }
+                self.seams.settle(seam, self.faces, self.gaps[seam], &mut self.samples[seam]);
             }
         }
         faces

@@ -30,6 +30,10 @@ pub fn glb(groups: &[Group], name: &str, metres: f64) -> Vec<u8> {
     };
     for group in groups {
         let mesh = group.mesh;
+        let indices: Vec<u32> = group.single_triangles().flatten().collect();
+        if indices.is_empty() {
+            continue;
+        }
         let count = mesh.positions.len();
         let positions: Vec<[f32; 3]> = mesh.positions.iter().map(|p| p.as_vec3().to_array()).collect();
         let limit = |pick: fn(f32, f32) -> f32, start: f32| {
@@ -53,11 +57,10 @@ pub fn glb(groups: &[Group], name: &str, metres: f64) -> Vec<u8> {
             ARRAY,
             json!({ "componentType": FLOAT, "count": count, "type": "VEC2" }),
         );
-        let indices: Vec<u8> = group.triangles().flatten().flat_map(u32::to_le_bytes).collect();
         let index = add(
-            indices,
+            indices.iter().flat_map(|v| v.to_le_bytes()).collect(),
             ELEMENTS,
-            json!({ "componentType": UINT, "count": 3 * mesh.triangles.len(), "type": "SCALAR" }),
+            json!({ "componentType": UINT, "count": indices.len(), "type": "SCALAR" }),
         );
         let material = colours.iter().position(|c| *c == group.colour).unwrap_or_else(|| {
             colours.push(group.colour);
@@ -94,7 +97,7 @@ pub fn glb(groups: &[Group], name: &str, metres: f64) -> Vec<u8> {
     let mut document = json!({
         "asset": { "version": "2.0", "generator": "hairline" },
         "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": nodes });
-    if !groups.is_empty() {
+    if !buffer.is_empty() {
         document["meshes"] = json!(meshes);
         document["materials"] = json!(materials);
         document["accessors"] = json!(accessors);

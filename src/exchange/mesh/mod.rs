@@ -43,6 +43,16 @@ impl Group<'_> {
         self.mesh.triangles.iter().map(|[a, b, c]| if self.reversed { [*a, *c, *b] } else { [*a, *b, *c] })
     }
 
+    /// Those of them that have three corners left in single precision. Where an edge is lost both triangles at it are, so that
+    /// what was closed stays closed.
+    pub fn single_triangles(&self) -> impl Iterator<Item = [u32; 3]> {
+        let at = |v: u32| self.mesh.positions[v as usize].as_vec3() + 0.0;
+        self.triangles().filter(move |[a, b, c]| {
+            let (a, b, c) = (at(*a), at(*b), at(*c));
+            a != b && b != c && c != a
+        })
+    }
+
     /// Normals in the face's own sense.
     pub fn normals(&self) -> impl Iterator<Item = DVec3> {
         let sign = if self.reversed { -1.0 } else { 1.0 };
@@ -121,6 +131,27 @@ mod tests {
         assert_eq!(points.len(), 4);
         assert_eq!(names, [vec![0, 1, 2], vec![1, 3, 2]]);
         assert_eq!(groups[1].triangles().collect::<Vec<_>>(), [[0, 2, 1]]);
+    }
+
+    #[test]
+    fn triangles_that_single_precision_flattens_are_left_out_there() {
+        let mut faces = faces();
+        // Next to nothing wide, and far from the origin.
+        let far = DVec3::splat(1000.0);
+        faces[0].positions = vec![far, far + DVec3::X * 1e-9, far + DVec3::Y];
+        let groups = groups(&faces);
+        assert_eq!(groups[0].triangles().count(), 1);
+        assert_eq!(groups[0].single_triangles().count(), 0);
+        let binary = stl(&groups, "t");
+        assert_eq!((binary.len(), binary[80]), (84 + 50, 1));
+        let file = glb(&groups, "t", 1.0);
+        let length = u32::from_le_bytes([file[12], file[13], file[14], file[15]]) as usize;
+        let json: serde_json::Value = serde_json::from_slice(&file[20..20 + length]).unwrap();
+        // A face without triangles is no mesh in a glTF file.
+        assert_eq!(json["meshes"].as_array().map(Vec::len), Some(1));
+        assert_eq!(json["accessors"][3]["count"], 3);
+        let text = String::from_utf8(obj(&groups, None)).unwrap();
+        assert_eq!(text.lines().filter(|l| l.starts_with("f ")).count(), 2);
     }
 
     #[test]

@@ -121,6 +121,9 @@ pub enum TessellateError {
     /// No part of the surface lies inside the trim loops.
     #[error("nothing of the surface lies inside the trim loops")]
     Empty,
+    /// All of its edges meet within the tolerance.
+    #[error("it is narrower than the tolerance: its neighbours meet where it was")]
+    Narrow,
     /// Points of the surface or of its boundary are not finite.
     #[error("the surface has points that are not finite numbers, near u {u}, v {v}")]
     NotFinite {
@@ -129,6 +132,9 @@ pub enum TessellateError {
         /// Where.
         v: f64,
     },
+    /// The loops cross each other so often that they cannot be laid.
+    #[error("the trim loops cross each other too often to be triangulated")]
+    Tangled,
     /// More triangles than allowed.
     #[error("the mesh needs more than {limit} triangles")]
     TooManyTriangles {

@@ -123,11 +123,8 @@ impl Run {
     pub fn project(&self, p: DVec3, guess: f64, (from, to): (f64, f64)) -> f64 {
         let mut s = guess.clamp(from, to);
         let mut best = self.point(s).distance_squared(p);
-        for _ in 0..12 {
-            let (piece, t) = self.at(s);
-            let (here, d) = tangent(&piece.space, t);
-            let squared = d.length_squared();
-            let mut step = if squared > 0.0 { (p - here).dot(d) / squared } else { 0.0 };
+        for _ in 0..24 {
+            let Some(mut step) = self.downhill(s, p) else { break };
             let mut moved = false;
             for _ in 0..6 {
                 // Across a joint the speed may be another: steps end there.
@@ -149,28 +146,47 @@ impl Run {
         s
     }
 
-    /// Parameter of the point nearest to `p` and its distance, where the run comes within `reach`: the best of several starts,
-    /// but for pieces whose control points keep away.
+    /// The step from `s` that brings the run nearest to `p` as far as its tangent goes. Speeds differ on either side of a
+    /// joint, so each side is asked for itself.
+    fn downhill(&self, s: f64, p: DVec3) -> Option<f64> {
+        let step = |(piece, t): (&LiftedPiece, f64)| {
+            let (here, d) = tangent(&piece.space, t);
+            let squared = d.length_squared();
+            if squared > 0.0 { (p - here).dot(d) / squared } else { 0.0 }
+        };
+        let ahead = step(self.at(s));
+        if ahead < 0.0 && s > 0.0 && s.fract() == 0.0 {
+            let before = &self.pieces[(s as usize).min(self.pieces.len()) - 1];
+            return Some(step((before, 1.0))).filter(|x| *x < 0.0);
+        }
+        Some(ahead)
+    }
+
+    /// Parameter of the point nearest to `p` and its distance, where the run comes within `reach`: the best of several starts
+    /// on each piece (a helix comes by again and again), but for pieces whose control points keep away.
     pub fn nearest_within(&self, p: DVec3, reach: f64) -> Option<(f64, f64)> {
         const SAMPLES: usize = 8;
-        let mut best: Option<(f64, f64)> = None;
+        /// Pieces that are gone down from, the nearest first.
+        const MOST: usize = 6;
+        let mut starts: Vec<(f64, f64)> = Vec::new();
         for (k, piece) in self.pieces.iter().enumerate() {
             let (low, high) = piece.space.hull();
             if p.clamp(low, high).distance(p) > reach {
                 continue;
             }
             let count = if is_even_line(&piece.space) { 1 } else { SAMPLES };
-            for i in 0..=count {
+            let start = (0..=count).map(|i| {
                 let s = k as f64 + i as f64 / count as f64;
-                let off = self.point(s).distance_squared(p);
-                if best.is_none_or(|b| off < b.0) {
-                    best = Some((off, s));
-                }
-            }
+                (self.point(s).distance_squared(p), s)
+            });
+            starts.extend(start.min_by(|a, b| a.0.total_cmp(&b.0)));
         }
-        let s = self.project(p, best?.1, (0.0, self.range()));
-        let off = self.point(s).distance(p);
-        (off <= reach).then_some((s, off))
+        starts.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let feet = starts.iter().take(MOST).map(|start| {
+            let s = self.project(p, start.1, (0.0, self.range()));
+            (s, self.point(s).distance(p))
+        });
+        feet.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|foot| foot.1 <= reach)
     }
 
     /// The vector towards the centre of curvature at `s`, as long as the curvature.
@@ -241,7 +257,11 @@ impl Outline {
             for piece in &face.pieces.pieces()[face.pieces.chain(index)] {
                 let points = face.pieces.points(piece).iter().map(|p| face.domain.native(*p)).collect();
                 let curve = BezierCurve2 { points, weights: face.pieces.weights(piece).to_vec() };
-                if runs.last().is_none_or(|r| r.source != piece.source) {
+                // Sides of the surface's rectangle and lines that close gaps come from no curve: they end at corners.
+                let starts = |r: &Run| {
+                    r.source != piece.source || piece.source.is_none() && turns(r, &curve, face.domain.size())
+                };
+                if runs.last().is_none_or(starts) {
                     runs.push(Run { source: piece.source, pieces: Vec::new() });
                 }
                 if let Some(run) = runs.last_mut() {
@@ -269,6 +289,13 @@ impl Outline {
         let chains = self.chains.iter().enumerate();
         chains.flat_map(|(c, runs)| runs.iter().enumerate().map(move |(r, run)| (c, r, run)))
     }
+}
+
+/// Whether `next` goes off in another direction than the run ends in, parameters taken as parts of `domain`.
+fn turns(run: &Run, next: &BezierCurve2, domain: DVec2) -> bool {
+    let Some(last) = run.pieces.last() else { return false };
+    let way = |c: &BezierCurve2| ((c.end() - c.start()) / domain).normalize_or_zero();
+    way(&last.uv).dot(way(next)) < 0.999
 }
 
 /// Takes out pieces that are rounding: they would stall whoever walks along the run. Their neighbours close up.
@@ -412,4 +439,47 @@ fn fit(
     let (left, right) = uv.split(0.5);
     fit(&left, patch, precision, depth - 1, out);
     fit(&right, patch, precision, depth - 1, out);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(points: &[DVec3]) -> Run {
+        let piece = |p: &[DVec3]| LiftedPiece {
+            uv: BezierCurve2::polynomial(p.iter().map(|p| p.truncate()).collect()),
+            space: BezierCurve3::polynomial(p.to_vec()),
+        };
+        Run { source: None, pieces: points.windows(2).map(piece).collect() }
+    }
+
+    #[test]
+    fn feet_are_found_across_pieces_of_very_different_speed() {
+        let run = run(&[0.0, 1.0, 1.0 + 1e-8, 2.0].map(|x| DVec3::X * x));
+        for (x, guess) in [(0.25, 2.0), (0.25, 3.0), (1.75, 1.0), (1.75, 0.0), (0.5, 1.5), (1.5, 1.5)] {
+            let p = DVec3::new(x, 0.1, 0.0);
+            let s = run.project(p, guess, (0.0, 3.0));
+            assert!((run.point(s).x - x).abs() < 1e-12, "{x} from {guess}: {s}");
+        }
+    }
+
+    #[test]
+    fn the_right_turn_of_a_helix_is_found() {
+        const TURNS: usize = 9;
+        // Pieces as long as a turn: the samples of one are farther apart than the turns.
+        let piece = |turn: usize| {
+            let at = |k: usize| {
+                let angle = std::f64::consts::TAU * k as f64 / 12.0;
+                DVec3::new(3.0 * angle.cos(), 3.0 * angle.sin(), turn as f64 + k as f64 / 12.0)
+            };
+            let space = BezierCurve3::polynomial((0..=12).map(at).collect());
+            LiftedPiece { uv: BezierCurve2::polynomial(vec![DVec2::ZERO, DVec2::X]), space }
+        };
+        let run = Run { source: None, pieces: (0..TURNS).map(piece).collect() };
+        for k in 0..100 {
+            let s = (k as f64 + 0.37) / 100.0 * TURNS as f64;
+            let (found, off) = run.nearest_within(run.point(s), 1e-6).expect("on the run");
+            assert!((found - s).abs() < 1e-6 && off < 1e-9, "{s}: {found}");
+        }
+    }
 }

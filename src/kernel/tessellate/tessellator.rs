@@ -17,7 +17,7 @@ use super::outline::{Ground, Outline, Run};
 use super::plane::Plane;
 use super::refine::{Middles, Refinement, Vertices};
 use super::seed::{expected, seeds};
-use super::triangulate::Region;
+use super::triangulate::{Crossings, Region};
 use super::untangle::untangle;
 use crate::kernel::face::{Face, Side};
 use crate::kernel::trim::UvRect;
@@ -201,6 +201,10 @@ impl<'a> Tessellator<'a> {
             let mut ring = Vec::new();
             for (run, samples) in runs.iter().enumerate() {
                 for (index, pair) in samples.windows(2).enumerate() {
+                    // A chord of no length may go back and forth by rounding, across others.
+                    if pair[0].point == pair[1].point && self.is_rounding(pair[1].uv - pair[0].uv) {
+                        continue;
+                    }
                     let owner = LongChord { chain, run, index, crossed: false };
                     for sample in self.along(pair, scale) {
                         let number = vertices.uvs.len() as u32;
@@ -227,7 +231,7 @@ impl<'a> Tessellator<'a> {
             Some(plane) => vertices.positions.iter().map(|p| plane.coordinates(*p)).collect(),
             None => vertices.uvs.iter().map(|uv| *uv * scale).collect(),
         };
-        let (mut region, crossings) = Region::new(&places, &loops);
+        let (mut region, crossings) = triangulated(&places, &loops)?;
         quality.crossings = crossings.places.len();
         for (a, b) in &crossings.pairs {
             for chord in [*a, *b, [a[1], a[0]], [b[1], b[0]]] {
@@ -314,6 +318,14 @@ impl<'a> Tessellator<'a> {
         let pole = self.ground.point(a);
         let direction = |k: usize| self.ground.point(a.lerp(b, k as f64 / STEPS as f64) + inward) - pole;
         (0..STEPS).map(|k| direction(k).angle_between(direction(k + 1))).filter(|x| x.is_finite()).sum()
+    }
+
+    /// Whether a step in parameters is rounding.
+    fn is_rounding(&self, step: DVec2) -> bool {
+        /// Part of the domain, and of what one triangle spans.
+        const PART: f64 = 1e-6;
+        let of_domain = (step / self.face.domain.size()).abs().max_element();
+        of_domain < PART && (self.plane.is_some() || (step * self.scale).length() < PART)
     }
 
     /// Makes parameters of boundary vertices that differ by rounding alone the same, u and v apart: chords along
@@ -410,6 +422,12 @@ impl<'a> Tessellator<'a> {
         let at = self.ground.tangents(0.5 * (bounds.min + bounds.max));
         boundary.iter().map(ring).sum::<f64>().abs() * at.du.cross(at.dv).length()
     }
+}
+
+/// The triangulation of `loops`. The crate that makes it has been seen to give up, by a panic, on loops that cross
+/// themselves hundreds of times: that is the face's misfortune, not the program's.
+fn triangulated(places: &[DVec2], loops: &[Vec<u32>]) -> Result<(Region, Crossings), TessellateError> {
+    std::panic::catch_unwind(|| Region::new(places, loops)).map_err(|_| TessellateError::Tangled)
 }
 
 /// The rectangle around places.
