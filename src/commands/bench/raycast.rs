@@ -255,7 +255,7 @@ fn gpu_frame(
     };
     // The first frame compiles the shaders.
     cast();
-    // The clock ticks a hundred times a second: short frames need many.
+    // Short frames need many.
     let frames = if from_triangles { 8 * FRAMES } else { FRAMES };
     let seconds = cpu_per_run(frames, &mut cast);
     failed?;

@@ -52,7 +52,8 @@ pub fn number(x: Option<f64>) -> String {
         Some(x) if x >= 99.5 => format!("{x:.0}"),
         Some(x) if x >= 9.95 => format!("{x:.1}"),
         Some(x) if x >= 0.995 => format!("{x:.2}"),
-        Some(x) => format!("{x:.3}"),
+        Some(x) if x >= 0.0995 || x <= 0.0 => format!("{x:.3}"),
+        Some(x) => format!("{x:.4}"),
     }
 }
 
@@ -93,10 +94,13 @@ pub fn cpu_per_run(runs: u32, mut work: impl FnMut()) -> f64 {
     spent / f64::from(runs)
 }
 
-/// User and system time of all threads so far, from Linux's process table (100 ticks a second).
+/// User and system time of all threads so far, ended ones included, to the nanosecond; `None` where the system does not tell.
 pub fn process_seconds() -> Option<f64> {
-    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
-    let fields: Vec<&str> = stat.rsplit(')').next()?.split_whitespace().collect();
-    let ticks = |k: usize| fields.get(k)?.parse::<f64>().ok();
-    Some((ticks(11)? + ticks(12)?) / 100.0)
+    #[cfg(unix)]
+    {
+        let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+        Some(time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64)
+    }
+    #[cfg(not(unix))]
+    None
 }
