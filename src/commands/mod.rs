@@ -36,6 +36,7 @@ pub fn run() -> ExitCode {
         }
     };
     quieten_drivers(&arguments);
+    quieten_caught_panics();
     match dispatch(&arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
@@ -45,6 +46,16 @@ pub fn run() -> ExitCode {
             ExitCode::from(failure.exit_code())
         }
     }
+}
+
+/// Panics of the triangulation's crate are caught where it is called and become errors of the face, which are told.
+fn quieten_caught_panics() {
+    let print = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        if !info.location().is_some_and(|place| place.file().contains("/spade-")) {
+            print(info);
+        }
+    }));
 }
 
 fn dispatch(arguments: &Arguments) -> Result<(), Failure> {

@@ -4,7 +4,8 @@
 //! is drawn onto a neighbour, and stays away when every triangle that changes keeps the tolerance, faces the
 //! same way and is no sliver in parameters. Vertices of the boundary stay.
 
-use super::refine::{Refinement, Vertices};
+use super::placing::Vertices;
+use super::refine::Refinement;
 use super::untangle::facing;
 
 /// Rounds over the vertices at most.

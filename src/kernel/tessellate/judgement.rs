@@ -3,7 +3,8 @@
 
 use glam::DVec3;
 
-use super::refine::{Refinement, Vertices};
+use super::placing::Vertices;
+use super::refine::Refinement;
 
 /// Triangles that look away from the surface and are higher than this part of the tolerance are divided.
 const FOLDED: f64 = 0.05;

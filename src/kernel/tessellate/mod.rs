@@ -29,6 +29,7 @@ pub mod mesh;
 mod nets;
 pub mod options;
 pub mod outline;
+pub mod placing;
 pub mod plane;
 pub mod refine;
 mod seed;

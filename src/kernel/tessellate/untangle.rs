@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::refine::Vertices;
+use super::placing::Vertices;
 
 /// Rounds over all triangles at most.
 const ROUNDS: usize = 4;
