@@ -155,10 +155,11 @@ fn work_is_called_off_limited_and_refused() {
     let state = app.world().resource::<Tessellation>();
     assert_eq!(state.made().expect("there").figures.triangles, coarse);
     assert!(state.current().is_none());
-    // Too many triangles are a question.
-    ask(&mut app, TessellationRequest::Allow(coarse + 10));
+    // Too many triangles are a question, by what is expected before the work: more than come out in the end.
+    let most = 10 * coarse;
+    ask(&mut app, TessellationRequest::Allow(most));
     wait(&mut app, "the limit", |state| matches!(state.progress(), Progress::Stopped(_)));
-    assert_eq!(stopped(&app), Some(Stop::TooMany(coarse + 10)));
+    assert_eq!(stopped(&app), Some(Stop::TooMany(most)));
     // Nonsense is refused with words, and the way back works.
     choose(&mut app, 1e-12);
     let Some(Stop::Failed(text)) = stopped(&app) else { panic!("{:?}", stopped(&app)) };
