@@ -278,7 +278,7 @@ fn copies_are_kept_offered_and_removed() {
     // Saved: nothing is left to recover.
     save_to(&mut next, &folder.path().join("saved.hairline"));
     std::fs::remove_file(folder.path().join("saved.hairline")).expect("it is there");
-    assert_eq!(copies(), 0);
+    assert_eq!(copies(), 0, "not even one that was being written");
 }
 
 #[test]

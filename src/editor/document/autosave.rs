@@ -4,7 +4,7 @@
 //! closing in order removes it. A copy whose process is gone is offered at the next start.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, mpsc};
+use std::sync::{Arc, Mutex, MutexGuard, mpsc};
 use std::time::{Duration, Instant};
 
 use bevy::prelude::*;
@@ -24,22 +24,27 @@ pub struct Recovery {
     pub folder: Option<RecoveryFolder>,
     /// The copy that is being opened.
     pub(super) recovering: Option<Recoverable>,
+    /// How often copies were forgotten. Held while one is written, so that none comes after it was forgotten.
+    forgotten: Arc<Mutex<u64>>,
 }
 
 impl Recovery {
     /// Copies in the user's data folder.
     pub fn of_user() -> Self {
-        Self { folder: RecoveryFolder::of_user(), recovering: None }
+        Self { folder: RecoveryFolder::of_user(), ..default() }
     }
 
     /// Copies in a folder.
     pub fn at(folder: RecoveryFolder) -> Self {
-        Self { folder: Some(folder), recovering: None }
+        Self { folder: Some(folder), ..default() }
     }
 
     /// Removes the copies of a document that was saved or closed in order. What cannot be removed is offered at the
     /// next start, which loses nothing.
+    ///
+    /// Waits for a copy that is being written: the program may end next.
     pub fn forget(&self, file: &DocumentFile) {
+        *count(&self.forgotten) += 1;
         if let Some(folder) = &self.folder {
             let _ = folder.forget(file.path.as_deref(), file.number);
             if let Some(copy) = &file.recovered {
@@ -60,14 +65,19 @@ impl Recovery {
     }
 }
 
+fn count(forgotten: &Mutex<u64>) -> MutexGuard<'_, u64> {
+    // A number is whole even if its holder panicked.
+    forgotten.lock().unwrap_or_else(|e| e.into_inner())
+}
+
 /// When the next copy is due, and the one being written.
 #[derive(Resource, Debug, Default)]
 pub(super) struct Autosave {
-    /// Revision of the document that the latest copy holds.
-    kept: u64,
+    /// Revision of the document that the latest copy holds, and how often copies were forgotten before it.
+    kept: (u64, u64),
     /// Revision seen last, and since when it waits.
     waiting: Option<(u64, Instant)>,
-    worker: Option<Mutex<mpsc::Receiver<Result<PathBuf, String>>>>,
+    worker: Option<Mutex<mpsc::Receiver<Result<Option<PathBuf>, String>>>>,
     failed: bool,
 }
 
@@ -92,7 +102,11 @@ pub(super) fn keep(
 ) {
     let Some(folder) = recovery.folder.clone().filter(|_| settings.autosave_s > 0) else { return };
     let revision = editing.revision();
-    if !editing.is_unsaved() || scene.is_empty() || autosave.kept == revision {
+    if autosave.worker.is_some() {
+        return;
+    }
+    let before = *count(&recovery.forgotten);
+    if !editing.is_unsaved() || scene.is_empty() || autosave.kept == (revision, before) {
         autosave.waiting = None;
         return;
     }
@@ -105,19 +119,24 @@ pub(super) fn keep(
         waker.wake_after(wait - now.duration_since(since));
         return;
     }
-    if editing.is_dragging() || autosave.worker.is_some() {
+    if editing.is_dragging() {
         return;
     }
     let (record, path, number) = (snapshot.record(), file.path.clone(), file.number);
     let (sender, receiver) = mpsc::channel();
     let for_thread = waker.clone();
+    let forgotten = Arc::clone(&recovery.forgotten);
     let spawned = std::thread::Builder::new().name("hairline-autosave".into()).spawn(move || {
-        let result = folder.keep(path.as_deref(), number, &record).map_err(|e| e.to_string());
+        let now = count(&forgotten);
+        let wanted = *now == before;
+        let kept = wanted.then(|| folder.keep(path.as_deref(), number, &record).map_err(|e| e.to_string()));
+        drop(now);
+        let result = kept.transpose();
         // The receiver is gone only when the program ends.
         let _ = sender.send(result);
         for_thread.wake();
     });
-    autosave.kept = revision;
+    autosave.kept = (revision, before);
     autosave.waiting = None;
     autosave.worker = spawned.is_ok().then(|| Mutex::new(receiver));
 }
@@ -126,7 +145,6 @@ pub(super) fn keep(
 pub(super) fn finish(
     mut autosave: ResMut<Autosave>,
     mut file: ResMut<DocumentFile>,
-    editing: Res<Editing>,
     recovery: Res<Recovery>,
     mut notices: ResMut<Notices>,
 ) {
@@ -139,12 +157,14 @@ pub(super) fn finish(
     };
     autosave.worker = None;
     match result {
-        Ok(copy) => {
+        // Saved or closed meanwhile.
+        Ok(None) => {}
+        Ok(Some(copy)) => {
             autosave.failed = false;
-            if !editing.is_unsaved() {
-                // Saved or closed while it was being written.
-                recovery.remove(&copy);
-            } else if let Some(old) = file.recovered.take().filter(|old| *old != copy) {
+            // Otherwise another document may be open by now.
+            if autosave.kept.1 == *count(&recovery.forgotten)
+                && let Some(old) = file.recovered.take().filter(|old| *old != copy)
+            {
                 recovery.remove(&old);
             }
         }
