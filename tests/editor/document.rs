@@ -3,10 +3,11 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use bevy::ecs::system::RunSystemOnce;
 use bevy::prelude::*;
 use bevy::window::WindowCloseRequested;
 use hairline::editor::document::{
-    Answer, Discarding, DocumentFile, Question, Questions, Recovery, SaveRequest, Saving, Target,
+    Answer, Discarding, DocumentFile, Naming, Question, Questions, Recovery, SaveRequest, Saving, Target,
 };
 use hairline::editor::editing::{EditRequest, Editing};
 use hairline::editor::files::{OpenFiles, Source};
@@ -291,6 +292,12 @@ fn exported_files_come_back() {
     save(&mut app, Target::Export(path.clone()), None);
     assert!(unsaved(&app), "an export is no save");
     let mut other = app_with(&path);
+    let naming = |app: &mut App| {
+        app.world_mut().run_system_once(|naming: Naming| naming.suggestion()).expect("readable")
+    };
+    assert_eq!(naming(&mut other), Some(path), "named after what was opened");
+    let built_in = naming(&mut app).expect("a name");
+    assert_eq!(built_in.file_stem(), Some("Demo scene".as_ref()));
     let after = records(&mut other);
     // Islands become faces of their own there.
     assert!(after[0].faces.len() >= before[0].faces.len());

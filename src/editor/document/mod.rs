@@ -7,6 +7,7 @@
 mod autosave;
 mod guard;
 mod merge;
+mod naming;
 mod question;
 mod save;
 mod snapshot;
@@ -18,6 +19,7 @@ use bevy::prelude::*;
 
 pub use autosave::Recovery;
 pub use guard::{Discarding, Proceed};
+pub use naming::Naming;
 pub use question::{Answer, Question, Questions};
 pub use save::{SaveRequest, Saving, Target};
 pub use snapshot::{Snapshot, restore};

@@ -9,6 +9,7 @@ use std::sync::{Mutex, mpsc};
 use bevy::prelude::*;
 
 use super::autosave::Recovery;
+use super::naming::Naming;
 use super::{Discarding, DocumentFile, Proceed, Question, Questions, Snapshot, merge};
 use crate::editor::editing::{Editing, SavePoint};
 use crate::editor::files::{FileDialogs, Purpose, remember};
@@ -89,7 +90,7 @@ impl Saving {
 pub(super) fn command_requests(
     mut commands: MessageReader<CommandRequest>,
     mut dialogs: ResMut<FileDialogs>,
-    file: Res<DocumentFile>,
+    naming: Naming,
     mut requests: MessageWriter<SaveRequest>,
 ) {
     for CommandRequest(action) in commands.read() {
@@ -97,7 +98,7 @@ pub(super) fn command_requests(
             Action::Save => Target::Own,
             Action::SaveAs => Target::Ask,
             Action::Export => {
-                dialogs.open(Purpose::Export, file.path.as_deref());
+                dialogs.open(Purpose::Export, naming.suggestion().as_deref());
                 continue;
             }
             _ => continue,
@@ -113,6 +114,7 @@ pub(super) fn start(
     mut dialogs: ResMut<FileDialogs>,
     mut notices: ResMut<Notices>,
     file: Res<DocumentFile>,
+    naming: Naming,
     editing: Res<Editing>,
     snapshot: Snapshot,
     waker: Res<Waker>,
@@ -129,7 +131,7 @@ pub(super) fn start(
             (Target::File(path), _) => (with_extension(path, file::EXTENSION), None, false),
             (Target::Export(path), _) => (with_extension(path, "igs"), None, true),
             (Target::Own | Target::Overwrite | Target::Ask, own) => {
-                dialogs.open(Purpose::Save(then.clone()), own.as_deref());
+                dialogs.open(Purpose::Save(then.clone()), own.or_else(|| naming.suggestion()).as_deref());
                 continue;
             }
         };

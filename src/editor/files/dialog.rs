@@ -84,7 +84,7 @@ fn to_save(title: &str, name: &str, what: &str, extension: &str, beside: Option<
 }
 
 impl FileDialogs {
-    /// Opens the dialog. `own` is the file of the document, to begin with.
+    /// Opens the dialog. `own` is a file whose folder and name, but for the ending, are offered.
     pub fn open(&mut self, purpose: Purpose, own: Option<&Path>) {
         let stem = own.and_then(Path::file_stem).map_or("Untitled".into(), |s| s.to_string_lossy());
         self.dialog = match &purpose {

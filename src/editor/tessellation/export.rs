@@ -7,7 +7,7 @@ use bevy::prelude::*;
 
 use super::made::Made;
 use super::{Tessellation, TessellationRequest};
-use crate::editor::document::DocumentFile;
+use crate::editor::document::Naming;
 use crate::editor::files::{FileDialogs, Purpose};
 use crate::editor::object::{AuthoredFace, FacePlace, Model};
 use crate::editor::panels::Notices;
@@ -59,10 +59,10 @@ struct Label {
 pub(super) fn command_requests(
     mut requests: MessageReader<CommandRequest>,
     mut dialogs: ResMut<FileDialogs>,
-    file: Res<DocumentFile>,
+    naming: Naming,
 ) {
     if requests.read().any(|CommandRequest(action)| *action == Action::ExportMesh) {
-        dialogs.open(Purpose::Mesh, file.path.as_deref());
+        dialogs.open(Purpose::Mesh, naming.suggestion().as_deref());
     }
 }
 
