@@ -266,10 +266,11 @@ fn write(model: &ModelRecord, meshed: &ModelMesh, format: Format, path: &Path) -
             Some(Group { name, part: part(face), colour, mesh, reversed })
         })
         .collect();
+    let too_much = |e: io::Error| Failure::Work { reason: format!("{}: {e}", path.display()) };
     let bytes = match format {
-        Format::Glb => mesh::glb(&groups, &model.name, 1e-3 * model.unit.millimetres),
-        Format::Stl => mesh::stl(&groups, &model.name),
-        Format::Ply => mesh::ply(&groups),
+        Format::Glb => mesh::glb(&groups, &model.name, 1e-3 * model.unit.millimetres).map_err(too_much)?,
+        Format::Stl => mesh::stl(&groups, &model.name).map_err(too_much)?,
+        Format::Ply => mesh::ply(&groups).map_err(too_much)?,
         Format::Obj => {
             let library = path.with_extension("mtl");
             output::write_whole(&library, &mesh::materials(&groups))?;

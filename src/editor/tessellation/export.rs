@@ -151,10 +151,11 @@ fn write(path: &Path, format: MeshFormat, made: &Arc<Made>, labels: &[Label]) ->
     let put = |path: &PathBuf, bytes: &[u8]| {
         replace(path, bytes).map_err(|error| format!("{} was not written: {error}", path.display()))
     };
+    let too_much = |error: std::io::Error| format!("{} was not written: {error}", path.display());
     let bytes = match format {
-        MeshFormat::Glb => mesh::glb(&groups, &name, 1e-3 * made.unit_mm),
-        MeshFormat::Stl => mesh::stl(&groups, &name),
-        MeshFormat::Ply => mesh::ply(&groups),
+        MeshFormat::Glb => mesh::glb(&groups, &name, 1e-3 * made.unit_mm).map_err(too_much)?,
+        MeshFormat::Stl => mesh::stl(&groups, &name).map_err(too_much)?,
+        MeshFormat::Ply => mesh::ply(&groups).map_err(too_much)?,
         MeshFormat::Obj => {
             let library = path.with_extension("mtl");
             put(&library, &mesh::materials(&groups))?;

@@ -1,7 +1,7 @@
 //! Triangle meshes as files: glTF binary, STL, OBJ and PLY.
 //!
-//! STL, OBJ and PLY are a few lines each to write; the crates for them keep neither groups nor colours (`stl_io`) or ask for
-//! a schema longer than the writer (`ply-rs`). A glTF file is one JSON object and one buffer, which `serde_json` writes.
+//! The formats are those of `gltf`, `stl_io` and `ply-rs-bw`; OBJ is written here, as no crate that is looked after writes it
+//! with groups, parameters and materials.
 //! Positions go out in the order of faces, so that the same model gives the same bytes. Lengths are those of the model,
 //! in glTF metres.
 
@@ -43,10 +43,10 @@ impl Group<'_> {
         self.mesh.triangles.iter().map(|[a, b, c]| if self.reversed { [*a, *c, *b] } else { [*a, *b, *c] })
     }
 
-    /// Those of them that have three corners left in single precision. Where an edge is lost both triangles at it are, so that
+    /// Those of them that have three corners left in single precision, counted from `origin`. Where an edge is lost both triangles at it are, so that
     /// what was closed stays closed.
-    pub fn single_triangles(&self) -> impl Iterator<Item = [u32; 3]> {
-        let at = |v: u32| self.mesh.positions[v as usize].as_vec3() + 0.0;
+    pub fn single_triangles(&self, origin: DVec3) -> impl Iterator<Item = [u32; 3]> {
+        let at = move |v: u32| (self.mesh.positions[v as usize] - origin).as_vec3() + 0.0;
         self.triangles().filter(move |[a, b, c]| {
             let (a, b, c) = (at(*a), at(*b), at(*c));
             a != b && b != c && c != a
@@ -104,7 +104,7 @@ fn welded(groups: &[Group]) -> (Vec<DVec3>, Vec<Vec<u32>>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DVec2;
+    use glam::{DVec2, Vec3};
 
     /// Two triangles on either side of an edge.
     fn faces() -> [FaceMesh; 2] {
@@ -141,10 +141,10 @@ mod tests {
         faces[0].positions = vec![far, far + DVec3::X * 1e-9, far + DVec3::Y];
         let groups = groups(&faces);
         assert_eq!(groups[0].triangles().count(), 1);
-        assert_eq!(groups[0].single_triangles().count(), 0);
-        let binary = stl(&groups, "t");
+        assert_eq!(groups[0].single_triangles(DVec3::ZERO).count(), 0);
+        let binary = stl(&groups, "t").unwrap();
         assert_eq!((binary.len(), binary[80]), (84 + 50, 1));
-        let file = glb(&groups, "t", 1.0);
+        let file = glb(&groups, "t", 1.0).unwrap();
         let length = u32::from_le_bytes([file[12], file[13], file[14], file[15]]) as usize;
         let json: serde_json::Value = serde_json::from_slice(&file[20..20 + length]).unwrap();
         // A face without triangles is no mesh in a glTF file.
@@ -158,20 +158,55 @@ mod tests {
     fn every_format_holds_every_triangle() {
         let faces = faces();
         let groups = groups(&faces);
-        let binary = stl(&groups, "t");
+        let binary = stl(&groups, "t").unwrap();
         assert_eq!((binary.len(), binary[80]), (84 + 2 * 50, 2));
         let text = String::from_utf8(obj(&groups, Some("t.mtl"))).unwrap();
         assert_eq!(text.lines().filter(|l| l.starts_with("f ")).count(), 2);
         assert_eq!(text.lines().filter(|l| l.starts_with("v ")).count(), 4);
         assert!(text.contains("g one") && text.contains("mtllib t.mtl"));
-        let bytes = ply(&groups);
+        let bytes = ply(&groups).unwrap();
         assert!(bytes.starts_with(b"ply\nformat binary_little_endian 1.0\n"));
-        let file = glb(&groups, "t", 1.0);
+        let file = glb(&groups, "t", 1.0).unwrap();
         assert_eq!(&file[..4], b"glTF");
         assert_eq!(u32::from_le_bytes([file[8], file[9], file[10], file[11]]) as usize, file.len());
         let length = u32::from_le_bytes([file[12], file[13], file[14], file[15]]) as usize;
         let json: serde_json::Value = serde_json::from_slice(&file[20..20 + length]).unwrap();
         assert_eq!(json["meshes"].as_array().map(Vec::len), Some(2));
         assert_eq!(json["accessors"][2]["count"], 3);
+    }
+
+    #[test]
+    fn what_is_far_from_the_origin_keeps_its_shape_in_gltf() {
+        let mut faces = faces();
+        let far = DVec3::new(3e6, -2e6, 5e5);
+        for p in faces.iter_mut().flat_map(|f| &mut f.positions) {
+            *p = far + *p * 0.1;
+        }
+        let file = glb(&groups(&faces), "t", 1e-3).unwrap();
+        // The crate checks what it reads against the format's rules.
+        let read = gltf::Gltf::from_slice(&file).unwrap();
+        let root = read.default_scene().unwrap().nodes().next().unwrap();
+        let matrix = glam::DMat4::from_cols_array_2d(&root.transform().matrix().map(|c| c.map(f64::from)));
+        let blob = read.blob.as_deref().unwrap();
+        let mut lengths = Vec::new();
+        for mesh in read.meshes() {
+            let primitive = mesh.primitives().next().unwrap();
+            let accessor = primitive.get(&gltf::Semantic::Positions).unwrap();
+            let start = accessor.view().unwrap().offset();
+            let floats: &[f32] = bytemuck::cast_slice(&blob[start..start + 12 * accessor.count()]);
+            let place_of = |p: &[f32]| matrix.transform_point3(Vec3::from_slice(p).as_dvec3());
+            let points: Vec<DVec3> = floats.chunks_exact(3).map(place_of).collect();
+            assert_eq!((points.len(), primitive.indices().unwrap().count()), (3, 3));
+            // Metres, with y up.
+            let place = 1e-3 * DVec3::new(far.x, far.z, -far.y);
+            assert!(points.iter().all(|p| p.distance(place) < 1e-3), "{points:?}");
+            lengths.extend([points[0].distance(points[1]), points[1].distance(points[2])]);
+        }
+        // 0.25 mm are the smallest step of single precision out there.
+        let diagonal = 2f64.sqrt() * 1e-4;
+        let expected = [1e-4, diagonal, diagonal, diagonal];
+        for (length, expected) in lengths.iter().zip(expected) {
+            assert!((length / expected - 1.0).abs() < 1e-5, "{lengths:?}");
+        }
     }
 }
