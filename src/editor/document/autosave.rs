@@ -70,6 +70,9 @@ fn count(forgotten: &Mutex<u64>) -> MutexGuard<'_, u64> {
     forgotten.lock().unwrap_or_else(|e| e.into_inner())
 }
 
+/// The copy that was written, none if it had been forgotten by then, or why there is none.
+type Kept = Result<Option<PathBuf>, String>;
+
 /// When the next copy is due, and the one being written.
 #[derive(Resource, Debug, Default)]
 pub(super) struct Autosave {
@@ -77,7 +80,7 @@ pub(super) struct Autosave {
     kept: (u64, u64),
     /// Revision seen last, and since when it waits.
     waiting: Option<(u64, Instant)>,
-    worker: Option<Mutex<mpsc::Receiver<Result<Option<PathBuf>, String>>>>,
+    worker: Option<Mutex<mpsc::Receiver<Kept>>>,
     failed: bool,
 }
 
