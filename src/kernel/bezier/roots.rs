@@ -102,7 +102,7 @@ fn isolate(c: &[f64], start: f64, end: f64, zero: f64, depth: u32, roots: &mut V
                 roots.push(0.5 * (start + end));
             }
         }
-        1 => roots.push(start + (end - start) * single(c)),
+        1 => roots.push(start + (end - start) * single(c, zero)),
         _ if depth == 0 => roots.push(0.5 * (start + end)),
         _ => {
             let mut right = c.to_vec();
@@ -142,13 +142,14 @@ pub fn value(c: &[f64], t: f64) -> f64 {
     sum
 }
 
-/// The only root of a polynomial with one change of sign: Illinois steps with a bisection guard.
-fn single(c: &[f64]) -> f64 {
+/// The only root of a polynomial with one change of sign, coefficients of size `zero` or less left out: Illinois steps with
+/// a bisection guard.
+fn single(c: &[f64], zero: f64) -> f64 {
     let (mut a, mut b) = (0.0, 1.0);
-    let first = c.iter().find(|x| **x != 0.0).copied().unwrap_or(0.0);
+    let first = c.iter().find(|x| x.abs() > zero).copied().unwrap_or(0.0);
     let (mut fa, mut fb) = (c[0], c[c.len() - 1]);
-    if fa == 0.0 || fb == 0.0 {
-        // A zero end hides the sign on its side: step in from it.
+    if fa.abs() <= zero || fb.abs() <= zero {
+        // An end that is zero but for rounding hides the sign on its side: step in from it.
         return bisect(c, first.signum());
     }
     for step in 0..100 {
@@ -215,6 +216,20 @@ mod tests {
             }
         }
         assert!(in_unit_interval(&[0.0, 0.0, 0.0]).is_empty());
+    }
+
+    #[test]
+    fn ends_that_are_zero_but_for_rounding_hide_no_root() {
+        // The way across of a whole circle in one piece, from its own side: it turns at both ends, in the middle, and back.
+        let across = [2.2, 4.3, 5.9, 6.1, 4.6, 1.7];
+        for noise in [0.0, 1e-15, -1e-15] {
+            let back = across.iter().rev().map(|x| -x);
+            let c: Vec<f64> = [noise].into_iter().chain(across).chain(back).chain([noise]).collect();
+            let found = in_unit_interval(&c);
+            let inner: Vec<f64> = found.into_iter().filter(|t| *t > 1e-6 && *t < 1.0 - 1e-6).collect();
+            assert_eq!(inner.len(), 1, "{noise}: {inner:?}");
+            assert!((inner[0] - 0.5).abs() < 1e-12, "{inner:?}");
+        }
     }
 
     proptest! {
