@@ -1,5 +1,7 @@
 //! Meshes of shared models: no face is left out, bodies are closed, areas fit, and the program writes them.
 
+use std::path::Path;
+
 use glam::DVec3;
 use hairline::kernel::face::Face;
 use hairline::kernel::query::{face_area, face_bounds};
@@ -113,6 +115,22 @@ fn files_without_loops_and_with_tiny_closing_edges_come_out_whole() {
         assert_eq!(folded(&mesh), 0, "{name}");
         assert!(!closed || open_edges(&mesh) == 0, "{name}");
     }
+}
+
+/// A prism over a closed spline, whose parameters along it are shares from 0 to 1 in its file, as IGES says.
+#[test]
+fn extruded_splines_keep_their_sides() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/models/data/extruded_122_closed.igs");
+    let (model, report) = hairline::exchange::iges::read(&path).unwrap();
+    assert!(report.remarks.is_empty(), "{:?}", report.remarks);
+    let faces: Vec<Face> = model.faces.iter().map(|f| f.derive().unwrap()).collect();
+    let all: Vec<Option<&Face>> = faces.iter().map(Some).collect();
+    let options = TessellationOptions::new(1e-3);
+    let mesh = mesh_faces(&all, &options, &Work::QUIET).unwrap();
+    assert_eq!((open_edges(&mesh), folded(&mesh)), (0, 0));
+    let area: f64 = mesh.faces.iter().flatten().map(FaceMesh::area).sum();
+    // Caps of 94.348466, sides as long as 200,000 chords of the spline, 2 high.
+    assert!((area - 2.0 * (94.348_466 + 35.153_900)).abs() < 0.05, "{area}");
 }
 
 fn keeps_its_tolerance(name: &str, faces: &[Face], options: &TessellationOptions, mesh: &ModelMesh) {

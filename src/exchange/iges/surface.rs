@@ -59,7 +59,7 @@ pub(crate) fn read_opened(
         128 => spline(surface128::read(args, scale)?, UvMap::IDENTITY),
         114 => spline(spline114::read(args, scale)?, UvMap::IDENTITY),
         118 => ruled118::read(reader, args).map(|(s, m)| spline(s, m))?,
-        120 => swept(revolution120::read(reader, args)?, own, index)?,
+        120 => revolution120::read(reader, args).map(|(s, m)| swept((s, vec![m]), own, index))??,
         122 => swept(tabulated122::read(reader, args)?, own, index)?,
         108 => {
             let (plane, boundary) = plane108::read(args, scale)?;
@@ -80,18 +80,20 @@ pub(crate) fn read_opened(
     })
 }
 
-fn swept((sweep, map): (Sweep, UvMap), own: DAffine3, index: usize) -> Result<Surface, EntityError> {
+fn swept((sweep, maps): (Sweep, Vec<UvMap>), own: DAffine3, index: usize) -> Result<Surface, EntityError> {
     let sweep = Sweep { model_from_local: own, ..sweep };
     let carrier = Carrier::spline(sweep.spline()?);
     // Angles along an arc may be meant a turn away from where the arc starts.
     let turned = |map: UvMap, turns: f64| UvMap { v: map.v.turned(turns), ..map };
     let turned_u = |map: UvMap, turns: f64| UvMap { u: map.u.turned(turns), ..map };
-    let mut native_from_iges = vec![map];
-    if map.v.arc.is_some() {
-        native_from_iges.extend([turned(map, 1.0), turned(map, -1.0)]);
-    }
-    if map.u.arc.is_some() {
-        native_from_iges.extend([turned_u(map, 1.0), turned_u(map, -1.0)]);
+    let mut native_from_iges = maps.clone();
+    for map in maps {
+        if map.v.arc.is_some() {
+            native_from_iges.extend([turned(map, 1.0), turned(map, -1.0)]);
+        }
+        if map.u.arc.is_some() {
+            native_from_iges.extend([turned_u(map, 1.0), turned_u(map, -1.0)]);
+        }
     }
     Ok(Surface { carrier, native_from_iges, boundary: None, sweep: Some(sweep), index })
 }
