@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use super::seams::{Seams, run_of};
 use crate::kernel::face::Face;
-use crate::kernel::tessellate::chords::{STEP, halve_chord, is_common};
+use crate::kernel::tessellate::chords::{CROSSED_STEP, STEP, halve_chord, is_common};
 use crate::kernel::tessellate::{
     Boundary, EdgeSample, FaceMesh, LongChord, TessellateError, TessellationOptions, Tessellator,
 };
@@ -66,6 +66,8 @@ const REACH: f64 = 0.5;
 /// no other neighbour.
 const FARTHEST: f64 = 4e-4;
 const NEAREST: f64 = 1e-9;
+/// How near the borders of well-made bodies are, as a part of the model's size.
+const WELL_MADE: f64 = 1e-6;
 
 /// Chords within this part of the tolerance are points.
 const POINT: f64 = 1e-3;
@@ -123,7 +125,7 @@ pub fn remesh_faces(
     let size = bounds.diagonal();
     let farthest = FARTHEST * size;
     let reach = (REACH * options.tolerance).min(farthest).max(NEAREST * size);
-    let seams = Seams::new(&prepared, reach, farthest);
+    let seams = Seams::new(&prepared, WELL_MADE * size, reach, farthest);
     let too_many = TessellateError::TooManyTriangles { limit: options.triangle_limit };
     let Some(mut division) = Division::new(&seams, &prepared, options.triangle_limit) else {
         return Err(too_many);
@@ -360,7 +362,7 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
                 self.samples[seam] =
                     self.seams.divide(seam, self.faces, self.parts[seam], true, self.gaps[seam]);
             } else if is_common(chords.len(), self.samples[seam].len().saturating_sub(1)) {
-                self.parts[seam] *= STEP;
+                self.parts[seam] *= if crossed.contains(&seam) { CROSSED_STEP } else { STEP };
                 self.samples[seam] =
                     self.seams.divide(seam, self.faces, self.parts[seam], plain, self.gaps[seam]);
             } else if let Some((_, run)) = run_of(self.faces, &first.address) {

@@ -91,8 +91,9 @@ const GAP_SAMPLES: usize = 23;
 
 impl Seams {
     /// Finds the seams of `faces`; ends and middles within `reach` (model units) meet. Borders that have found no neighbour
-    /// so look for one within `farthest`: what is one edge in the model stays one, however fine the mesh.
-    pub fn new(faces: &[Option<Tessellator>], reach: f64, farthest: f64) -> Self {
+    /// so look for one within `farthest`: what is one edge in the model stays one, however fine the mesh. Bodies that are
+    /// closed by what meets within `least` are left at that: what is thin stays a body, however coarse the mesh.
+    pub fn new(faces: &[Option<Tessellator>], least: f64, reach: f64, farthest: f64) -> Self {
         let runs: Runs = faces
             .iter()
             .enumerate()
@@ -106,6 +107,17 @@ impl Seams {
         let tolerance = faces.iter().flatten().map(Tessellator::tolerance).fold(0.0, f64::max);
         let last_two = reach.max((1.0 - LEAST_SHARE) * tolerance);
         let mut reaches = Reaches { base: reach, last_two, of: vec![reach; runs.len()] };
+        if least < reach {
+            let near = Reaches { base: least, last_two: least, of: vec![least; runs.len()] };
+            let (found, of) = Self::between(&runs, &cuts, &near);
+            let single = found.single(&of, &lengths, least);
+            if !single.contains(&true) {
+                return found;
+            }
+            let open = found.open_bodies(faces.len(), &runs, &single);
+            let of = runs.iter().map(|(at, _)| if open[at.face] { reach } else { least });
+            reaches.of = of.collect();
+        }
         let (mut found, mut of) = Self::between(&runs, &cuts, &reaches);
         let mut single = found.single(&of, &lengths, reach);
         // Runs that have found their like from end to end need no cuts, whatever else ends on them.
@@ -136,6 +148,29 @@ impl Seams {
             single[*run] |= lengths[*run] > reach && self.seams[stretch.seam].stretches.len() == 1;
         }
         single
+    }
+
+    /// For each face whether a face that it hangs together with has a border that is alone.
+    fn open_bodies(&self, faces: usize, runs: &Runs, single: &[bool]) -> Vec<bool> {
+        let mut body: Vec<usize> = (0..faces).collect();
+        fn first(body: &mut [usize], mut face: usize) -> usize {
+            while body[face] != face {
+                body[face] = body[body[face]];
+                face = body[face];
+            }
+            face
+        }
+        for seam in &self.seams {
+            for pair in seam.stretches.windows(2) {
+                let [a, b] = [0, 1].map(|k| first(&mut body, self.stretches[pair[k]].address.face));
+                body[a.max(b)] = a.min(b);
+            }
+        }
+        let mut open = vec![false; faces];
+        for ((at, _), _) in runs.iter().zip(single).filter(|(_, single)| **single) {
+            open[first(&mut body, at.face)] = true;
+        }
+        (0..faces).map(|face| open[first(&mut body, face)]).collect()
     }
 
     /// The seams of `runs` divided at `cuts`, and the run of each stretch.
@@ -336,6 +371,23 @@ mod tests {
                 let off = measure_face(face, m.as_ref().expect("a mesh"), 4, 4000).largest();
                 assert!(off <= tolerance, "{off} {tolerance}");
             }
+        }
+    }
+
+    /// The face over two lines, from `a` to `b` and from `c` to `d`.
+    fn flat([a, b, c, d]: [DVec3; 4]) -> Face {
+        let knots = || KnotVector::new(1, vec![0.0, 0.0, 1.0, 1.0]).expect("knots");
+        let surface = NurbsSurface::new(knots(), knots(), vec![a, b, c, d], vec![1.0; 4]).expect("a surface");
+        Face::derive(&surface, &[]).expect("a face")
+    }
+
+    #[test]
+    fn bodies_thinner_than_the_tolerance_stay_bodies() {
+        for thick in [1e-5, 1e-4] {
+            let at = |k: usize| DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, thick * (k >> 2) as f64);
+            let sides = [[0, 1, 2, 3], [4, 6, 5, 7], [0, 4, 1, 5], [2, 3, 6, 7], [0, 2, 4, 6], [1, 5, 3, 7]];
+            let mesh = meshed(&sides.map(|side| flat(side.map(at))), 1e-3);
+            assert_eq!((mesh.triangle_count(), open(&mesh).len()), (12, 0), "{thick}");
         }
     }
 

@@ -70,8 +70,8 @@ pub(super) fn cut(runs: &Runs, cuts: &[Vec<f64>], reaches: &Reaches) -> Cut {
         }
     }
     let closes_gap = |k: usize| runs[of[k]].1.source.is_none();
-    let is_nothing = nothing(&stretches, &places, &own, reaches.base, &closes_gap);
     let reach = |k: usize| reaches.of[of[k]];
+    let is_nothing = nothing(&stretches, &places, &own, &|k| reaches.base.min(reach(k)), &closes_gap);
     let far = end_reaches(&stretches, &own, &is_nothing, &reach);
     let one: Vec<[usize; 2]> =
         (0..stretches.len()).filter(|k| is_nothing[*k]).map(|k| stretches[k].ends).collect();
@@ -84,15 +84,24 @@ pub(super) fn cut(runs: &Runs, cuts: &[Vec<f64>], reaches: &Reaches) -> Cut {
 }
 
 /// About the length of a run between two parameters: of each piece between its chord and its control polygon
-/// (Gravesen 1997), of a part of one its share.
+/// (Gravesen 1997), of a part of one its share. Where these are far from each other, as for a whole circle in one piece,
+/// of chords along it.
 pub(super) fn rough_part(run: &Run, from: f64, to: f64) -> f64 {
+    /// Chords of a piece that is far from its control polygon.
+    const CHORDS: usize = 16;
+    const NEAR: f64 = 0.7;
     let (first, last) = (from as usize, (to.ceil() as usize).clamp(1, run.pieces.len()));
     let piece = |k: usize| {
         let curve = &run.pieces[k].space;
         let n = curve.degree() as f64;
         let polygon: f64 = curve.points.windows(2).map(|p| p[0].distance(p[1])).sum();
-        let length = (2.0 * curve.start().distance(curve.end()) + (n - 1.0) * polygon) / (n + 1.0);
-        length * ((to - k as f64).min(1.0) - (from - k as f64).max(0.0))
+        let chord = curve.start().distance(curve.end());
+        let (low, high) = ((from - k as f64).max(0.0), (to - k as f64).min(1.0));
+        if chord < NEAR * polygon && n > 1.0 {
+            let at = |i: usize| run.point(k as f64 + low + (high - low) * i as f64 / CHORDS as f64);
+            return (0..CHORDS).map(|i| at(i).distance(at(i + 1))).sum();
+        }
+        (2.0 * chord + (n - 1.0) * polygon) / (n + 1.0) * (high - low)
     };
     (first..last).map(piece).sum()
 }
@@ -149,7 +158,7 @@ fn nothing(
     stretches: &[Stretch],
     places: &[DVec3],
     own: &[f64],
-    reach: f64,
+    reach: &dyn Fn(usize) -> f64,
     closes_gap: &dyn Fn(usize) -> bool,
 ) -> Vec<bool> {
     let chain = |s: &Stretch| (s.address.face, s.address.chain);
@@ -158,9 +167,9 @@ fn nothing(
         let first = is_nothing.len();
         let lengths = &own[first..first + same.len()];
         let total: f64 = lengths.iter().sum();
-        let least = (NOTHING * reach).min(NOTHING_OF_CHAIN * total);
-        let closes = |k: usize| lengths[k] <= reach.min(0.1 * total) && closes_gap(first + k);
-        is_nothing.extend((0..same.len()).map(|k| lengths[k] <= least || closes(k)));
+        let least = |k: usize| (NOTHING * reach(first + k)).min(NOTHING_OF_CHAIN * total);
+        let closes = |k: usize| lengths[k] <= reach(first + k).min(0.1 * total) && closes_gap(first + k);
+        is_nothing.extend((0..same.len()).map(|k| lengths[k] <= least(k) || closes(k)));
     }
     if !is_nothing.contains(&true) {
         return is_nothing;

@@ -333,6 +333,8 @@ pub fn is_common(long: usize, all: usize) -> bool {
 
 /// What the tolerance of a run that is divided anew shrinks by.
 pub const STEP: f64 = 0.8;
+/// The same where chords cross others: walls may be much thinner than the tolerance.
+pub const CROSSED_STEP: f64 = 0.4;
 
 /// Puts a vertex in the middle of a chord, or near it where pieces of the run meet: creases of the surface lie there.
 pub fn halve_chord(run: &Run, samples: &mut Vec<EdgeSample>, index: usize) {

@@ -163,7 +163,8 @@ impl Run {
     }
 
     /// Parameter of the point nearest to `p` and its distance, where the run comes within `reach`: the best of several starts
-    /// on each piece (a helix comes by again and again), but for pieces whose control points keep away.
+    /// on each piece (a helix comes by again and again, a piece that is closed at both of its ends), but for pieces whose
+    /// control points keep away.
     pub fn nearest_within(&self, p: DVec3, reach: f64) -> Option<(f64, f64)> {
         const SAMPLES: usize = 8;
         /// Pieces that are gone down from, the nearest first.
@@ -175,11 +176,14 @@ impl Run {
                 continue;
             }
             let count = if is_even_line(&piece.space) { 1 } else { SAMPLES };
-            let start = (0..=count).map(|i| {
+            let mut own = [(f64::INFINITY, 0.0); SAMPLES + 1];
+            for (i, start) in own[..=count].iter_mut().enumerate() {
                 let s = k as f64 + i as f64 / count as f64;
-                (self.point(s).distance_squared(p), s)
-            });
-            starts.extend(start.min_by(|a, b| a.0.total_cmp(&b.0)));
+                *start = (self.point(s).distance_squared(p), s);
+            }
+            let off = |i: usize| own.get(i).map_or(f64::INFINITY, |start| start.0);
+            let lowest = |i: usize| off(i) <= off(i.wrapping_sub(1)) && off(i) <= off(i + 1);
+            starts.extend((0..=count).filter(|i| lowest(*i)).map(|i| own[i]));
         }
         starts.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let feet = starts.iter().take(MOST).map(|start| {
@@ -460,6 +464,24 @@ mod tests {
             let p = DVec3::new(x, 0.1, 0.0);
             let s = run.project(p, guess, (0.0, 3.0));
             assert!((run.point(s).x - x).abs() < 1e-12, "{x} from {guess}: {s}");
+        }
+    }
+
+    #[test]
+    fn feet_beside_the_joint_of_a_closed_piece_are_found_from_either_side() {
+        // Round and round in one piece of degree 6, much the faster the farther from its joint.
+        let points =
+            [(3.0, 0.0), (3.0, 9.0), (-3.0, 9.0), (-9.0, 0.0), (-3.0, -9.0), (3.0, -9.0), (3.0, 0.0)];
+        let space = BezierCurve3::polynomial(points.iter().map(|p| DVec3::new(p.0, p.1, 0.0)).collect());
+        let uv = BezierCurve2::polynomial(vec![DVec2::ZERO, DVec2::X]);
+        let run = Run { source: None, pieces: vec![LiftedPiece { uv, space }] };
+        for k in 0..=200 {
+            let s = f64::from(k) / 200.0;
+            let (found, off) = run.nearest_within(run.point(s), 1e-6).expect("on the run");
+            assert!(
+                off < 1e-9 && ((found - s).abs() < 1e-6 || (found - s).abs() > 1.0 - 1e-6),
+                "{s}: {found}"
+            );
         }
     }
 
