@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::model_mesh::ModelMesh;
 use crate::kernel::bezier::BezierCurve3;
 use crate::kernel::face::{Face, Side};
-use crate::kernel::query::{BoundsTree, closest_on_surface};
+use crate::kernel::query::{BoundsTree, Locator, closest_on_surface};
 use crate::kernel::tessellate::line_error::distance_to_segment;
 use crate::kernel::tessellate::outline::LiftedPiece;
 use crate::kernel::tessellate::{FaceMesh, Ground, Outline};
@@ -99,7 +99,7 @@ pub fn measure_face(face: &Face, mesh: &FaceMesh, density: usize, most: usize) -
                 distance.note(from_face, 0.0, at);
                 distance.samples += 1;
                 // The surface's own points near the foot against the mesh.
-                if face.classify_native(foot.x, foot.y) == Side::In {
+                if target.locator.classify_native(foot.x, foot.y) == Side::In {
                     let p = target.ground.point(foot);
                     distance.note(0.0, to_mesh(mesh, &tree, p, off.max(1e-300) * 1.0001), p);
                 }
@@ -112,7 +112,7 @@ pub fn measure_face(face: &Face, mesh: &FaceMesh, density: usize, most: usize) -
     for k in 0..side * side {
         let share = DVec2::new((k % side) as f64 + 0.5, (k / side) as f64 + 0.5) / side as f64;
         let uv = face.domain.native(share);
-        if face.classify_native(uv.x, uv.y) == Side::In {
+        if target.locator.classify_native(uv.x, uv.y) == Side::In {
             let p = target.ground.point(uv);
             distance.note(0.0, to_mesh(mesh, &tree, p, about(&distance)), p);
             distance.samples += 1;
@@ -129,6 +129,7 @@ pub fn measure_face(face: &Face, mesh: &FaceMesh, density: usize, most: usize) -
 /// A trimmed face to measure from: its surface and its outline as a fine polyline.
 pub(super) struct Target<'a> {
     face: &'a Face,
+    locator: Locator,
     ground: Ground<'a>,
     /// Points of the outline.
     points: Vec<DVec3>,
@@ -144,6 +145,7 @@ const PARTS: usize = 16;
 
 impl<'a> Target<'a> {
     pub(super) fn new(face: &'a Face) -> Self {
+        let locator = Locator::new(face.clone());
         let ground = Ground::new(face);
         let outline = Outline::new(face, &ground, 1e-6 * face.bounds.diagonal());
         let pieces: Vec<&LiftedPiece> = outline.runs().flat_map(|(_, _, run)| &run.pieces).collect();
@@ -154,9 +156,11 @@ impl<'a> Target<'a> {
             let count = if curve.degree() == 1 { 2 } else { PARTS };
             for k in 0..count {
                 let (from, to) = (k as f64 / count as f64, (k + 1) as f64 / count as f64);
-                if bounds_face(face, piece, from) {
+                if bounds_face(&locator, piece, from) {
                     points.push(curve.point(from));
-                } else if !bounds_face(face, piece, 0.5 * (from + to)) && !bounds_face(face, piece, to) {
+                } else if !bounds_face(&locator, piece, 0.5 * (from + to))
+                    && !bounds_face(&locator, piece, to)
+                {
                     continue;
                 }
                 parts.push((number, from, to));
@@ -164,14 +168,14 @@ impl<'a> Target<'a> {
             }
         }
         let tree = BoundsTree::new(&boxes);
-        Self { face, ground, points, curves, parts, tree }
+        Self { face, locator, ground, points, curves, parts, tree }
     }
 
     /// Foot of `p` on the surface, searched from `start`, and its distance; and the distance of `p` from the trimmed face
     /// where that is more than `most`.
     pub(super) fn offer(&self, p: DVec3, start: DVec2, most: f64) -> (DVec2, f64, f64) {
         let (mut foot, mut off) = project(&self.ground, p, start);
-        let outside = |foot: DVec2| self.face.classify_native(foot.x, foot.y) != Side::In;
+        let outside = |foot: DVec2| self.locator.classify_native(foot.x, foot.y) != Side::In;
         let from_face =
             |foot: DVec2, off: f64| if outside(foot) { off.max(self.off_outline(p)) } else { off };
         let mut found = from_face(foot, off);
@@ -236,13 +240,13 @@ impl<'a> Target<'a> {
 
 /// Whether the face is on either side of its outline at `t` of a piece. Where two loops run along each other (a hole that ends
 /// on the rim of the surface, or beyond it) it is on neither, and the outline there is no part of it.
-fn bounds_face(face: &Face, piece: &LiftedPiece, t: f64) -> bool {
-    /// How far aside is looked, as a part of the domain.
-    const ASIDE: f64 = 1e-6;
+fn bounds_face(locator: &Locator, piece: &LiftedPiece, t: f64) -> bool {
+    /// How far aside is looked, as a part of the domain: far enough to be answered at once.
+    const ASIDE: f64 = 5e-6;
     let (at, along) = piece.uv.tangent(t);
-    let size = face.domain.size();
+    let size = locator.face().domain.size();
     let across = ASIDE * size * (along / size).perp().normalize_or(DVec2::X);
-    [at + across, at - across].iter().any(|p| face.classify_native(p.x, p.y) == Side::In)
+    [at + across, at - across].iter().any(|p| locator.classify_native(p.x, p.y) == Side::In)
 }
 
 /// Foot of `p` on the surface, going downhill from `start`; and the distance.

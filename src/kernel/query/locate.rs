@@ -2,13 +2,13 @@
 //!
 //! [`Face::classify_native`] looks at every trim curve to see whether one passes close by. For many
 //! points a tree over the curves' boxes pays: far from all curves the parity grid with slabs answers at
-//! once, and only points close to one take the long way. The answers are the same.
+//! once, points close to one ask that one, and only points beside it take the long way. The answers are the same.
 
 use glam::{DVec2, DVec3};
 
 use super::BoundsTree;
-use crate::kernel::face::{Face, NEAR, Side};
-use crate::kernel::trim::{SlabGrid, TrimStructure, oracle};
+use crate::kernel::face::{Face, NEAR, ON_TOLERANCE, Side};
+use crate::kernel::trim::{FillRule, SlabGrid, TrimStructure, oracle};
 use crate::kernel::view::Bounds;
 
 /// A face with a tree over its trim curves, and slabs over its parity grid.
@@ -40,18 +40,21 @@ impl Locator {
     pub fn classify_native(&self, u: f64, v: f64) -> Side {
         let p = self.face.domain.normalise(DVec2::new(u, v));
         let inside = p.cmpge(DVec2::ZERO).all() && p.cmple(DVec2::ONE).all();
-        if !inside || self.is_near_a_curve(p) {
+        if !inside {
             return self.face.classify_native(u, v);
         }
-        if self.slabs.classify(p.as_vec2()) { Side::In } else { Side::Out }
-    }
-
-    fn is_near_a_curve(&self, p: DVec2) -> bool {
-        let (list, mut near) = (&self.face.pieces, false);
+        let (list, mut near, mut on) = (&self.face.pieces, false, false);
         self.tree.within(p.extend(0.0), 2.0 * NEAR, |piece| {
-            near = near || oracle::is_on_piece(list, &list.pieces()[piece], p, NEAR);
+            let within = |tolerance| oracle::is_on_piece(list, &list.pieces()[piece], p, tolerance);
+            near = near || within(NEAR);
+            on = on || near && within(ON_TOLERANCE);
         });
-        near
+        let inside = match (on, near) {
+            (true, _) => return Side::On,
+            (false, true) => oracle::inside(list, p, FillRule::EvenOdd),
+            (false, false) => self.slabs.classify(p.as_vec2()),
+        };
+        if inside { Side::In } else { Side::Out }
     }
 }
 
