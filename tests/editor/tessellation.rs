@@ -96,7 +96,6 @@ fn a_model_is_meshed_measured_and_made_again_where_it_is_edited() {
     assert_eq!(figures.open_edges, made.edges.iter().filter(|e| e.is_open()).count());
     let largest = figures.largest.expect("measured");
     assert!(largest.mm > 0.0 && largest.mm <= figures.tolerance_mm, "{largest:?} {}", figures.tolerance_mm);
-    assert!(app.world().resource::<CurrentSituation>().0.mesh);
 
     // Only what the edit touched is made again, and the result is what all of it made anew would be.
     let face = holed(&mut app);
@@ -245,4 +244,37 @@ fn meshes_are_written_in_every_format() {
         std::thread::sleep(Duration::from_millis(10));
         app.update();
     }
+}
+
+#[test]
+fn a_mesh_is_made_for_an_export_when_there_is_none() {
+    let mut app = tessellated(TessellationView::Overlay);
+    let mut choices = app.world().resource::<Settings>().tessellation.clone();
+    choices.view = TessellationView::Off;
+    // Another tolerance, so that nothing made before will do.
+    choices.tolerance_mm = choices.tolerance_mm.map(|t| 1.5 * t);
+    ask(&mut app, TessellationRequest::Choose(choices));
+    assert!(app.world().resource::<Tessellation>().current().is_none());
+    let situation = &app.world().resource::<CurrentSituation>().0;
+    let row = Action::ExportMesh.command().expect("it has a row");
+    assert!((row.enabled)(situation), "without triangles as well");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("mesh.stl");
+    command(&mut app, Action::ExportMesh);
+    assert_eq!(app.world().resource::<Settings>().tessellation.view, TessellationView::Overlay);
+    ask(&mut app, TessellationRequest::Export(path.clone()));
+    wait(&mut app, "the file", |_| path.exists());
+
+    // While the question of too many triangles waits for its answer so does the file, but not for another scene.
+    ask(&mut app, TessellationRequest::Allow(10));
+    wait(&mut app, "the question", |state| matches!(state.progress(), Progress::Stopped(Stop::TooMany(_))));
+    let late = folder.path().join("late.stl");
+    ask(&mut app, TessellationRequest::Export(late.clone()));
+    app.world_mut().write_message(OpenFiles { sources: vec![Source::Demo], replace: true });
+    app.update();
+    finish_loading(&mut app);
+    app.update();
+    let notices = app.world().resource::<hairline::editor::panels::Notices>();
+    assert!(notices.list().iter().any(|n| n.text.contains("late.stl was not written")));
+    assert!(!late.exists());
 }

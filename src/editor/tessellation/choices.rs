@@ -163,6 +163,10 @@ pub(super) fn command_requests(mut requests: MessageReader<CommandRequest>, mut 
                 };
                 *edges = !*edges;
             }
+            // What is exported is seen first: how many triangles, and how far off.
+            Action::ExportMesh if settings.tessellation.view == TessellationView::Off => {
+                settings.tessellation.view = TessellationView::Overlay;
+            }
             Action::ToggleFacets => settings.tessellation.facets = !settings.tessellation.facets,
             _ => {}
         }

@@ -6,10 +6,10 @@ use std::sync::{Arc, Mutex, mpsc};
 use bevy::prelude::*;
 
 use super::made::Made;
-use super::{Tessellation, TessellationRequest};
+use super::{Progress, Stop, Tessellation, TessellationRequest};
 use crate::editor::document::Naming;
 use crate::editor::files::{FileDialogs, Purpose};
-use crate::editor::object::{AuthoredFace, FacePlace, Model};
+use crate::editor::object::{AuthoredFace, FacePlace, Model, Scene};
 use crate::editor::panels::Notices;
 use crate::editor::redraw::Waker;
 use crate::editor::tools::{Action, CommandRequest};
@@ -43,9 +43,13 @@ impl MeshFormat {
     }
 }
 
-/// The file being written.
+/// The file to be written when its triangles are made, and the one being written.
 #[derive(Resource, Default)]
-pub(super) struct Exporting(Option<Mutex<mpsc::Receiver<Result<String, String>>>>);
+pub(super) struct Exporting {
+    /// With the revision of the scene that it is of.
+    waiting: Option<(PathBuf, MeshFormat, u64)>,
+    writer: Option<Mutex<mpsc::Receiver<Result<String, String>>>>,
+}
 
 /// What a file says of a face beside its triangles.
 struct Label {
@@ -72,11 +76,12 @@ pub(super) fn serve(
     mut exporting: ResMut<Exporting>,
     mut notices: ResMut<Notices>,
     state: Res<Tessellation>,
+    scene: Res<Scene>,
     faces: Query<(&AuthoredFace, &FacePlace)>,
     models: Query<&Model>,
     waker: Res<Waker>,
 ) {
-    if let Some(receiver) = &exporting.0 {
+    if let Some(receiver) = &exporting.writer {
         let result = receiver.lock().unwrap_or_else(|e| e.into_inner()).try_recv();
         let done = !matches!(result, Err(mpsc::TryRecvError::Empty));
         match result {
@@ -86,7 +91,7 @@ pub(super) fn serve(
             Err(mpsc::TryRecvError::Disconnected) => notices.error("the mesh was not written".into()),
         }
         if done {
-            exporting.0 = None;
+            exporting.writer = None;
         }
     }
     for request in requests.read() {
@@ -95,42 +100,58 @@ pub(super) fn serve(
             notices.error(format!("{}: the name must end in .glb, .stl, .obj or .ply", path.display()));
             continue;
         };
-        let Some(made) = state.current().cloned() else {
-            notices.error("There is no mesh yet: wait until it is made".into());
-            continue;
-        };
-        if exporting.0.is_some() {
+        if exporting.waiting.is_some() || exporting.writer.is_some() {
             notices.info("Still writing the last mesh".into());
             continue;
         }
-        let label = |face: &Entity| {
-            let Ok((authored, place)) = faces.get(*face) else {
-                return Label { name: "face".into(), part: String::new(), colour: PLAIN, reversed: false };
-            };
-            let own = &authored.attributes;
-            let part = models.get(place.model).ok().and_then(|m| m.parts.get(own.part?));
-            Label {
-                name: own.name.clone().unwrap_or_else(|| format!("face {}", place.number)),
-                part: part.map_or(String::new(), |p| p.name.clone()),
-                colour: own.colour.unwrap_or(PLAIN),
-                reversed: own.reversed,
-            }
-        };
-        let labels: Vec<Label> = made.faces().iter().map(label).collect();
-        let (sender, receiver) = mpsc::channel();
-        let (to, waker) = (path.clone(), waker.clone());
-        let spawned = std::thread::Builder::new().name("hairline-export".into()).spawn(move || {
-            let work = std::panic::AssertUnwindSafe(|| write(&to, format, &made, &labels));
-            let result = std::panic::catch_unwind(work)
-                .unwrap_or_else(|_| Err(format!("{}: internal error while writing", to.display())));
-            // The receiver is gone only when the program ends.
-            let _ = sender.send(result);
-            waker.wake();
-        });
-        match spawned {
-            Ok(_) => exporting.0 = Some(Mutex::new(receiver)),
-            Err(error) => notices.error(format!("not written: cannot start a thread: {error}")),
+        exporting.waiting = Some((path.clone(), format, scene.revision));
+        if state.current().is_none() {
+            notices.info(format!("{} will be written when its triangles are made", path.display()));
         }
+    }
+    let Some((path, format, revision)) = exporting.waiting.clone() else { return };
+    let made = state.current().filter(|_| scene.revision == revision).cloned();
+    let Some(made) = made else {
+        let reason = match state.progress() {
+            _ if scene.revision != revision => "the scene is another by now".into(),
+            // The question may be answered with yes.
+            Progress::Meshing(_) | Progress::Measuring(_) | Progress::Ready => return,
+            Progress::Stopped(Stop::TooMany(_)) => return,
+            Progress::Stopped(Stop::Failed(reason)) => reason,
+            Progress::Stopped(Stop::Cancelled) | Progress::Off => "no triangles were made".into(),
+        };
+        exporting.waiting = None;
+        notices.error(format!("{} was not written: {reason}", path.display()));
+        return;
+    };
+    exporting.waiting = None;
+    let label = |face: &Entity| {
+        let Ok((authored, place)) = faces.get(*face) else {
+            return Label { name: "face".into(), part: String::new(), colour: PLAIN, reversed: false };
+        };
+        let own = &authored.attributes;
+        let part = models.get(place.model).ok().and_then(|m| m.parts.get(own.part?));
+        Label {
+            name: own.name.clone().unwrap_or_else(|| format!("face {}", place.number)),
+            part: part.map_or(String::new(), |p| p.name.clone()),
+            colour: own.colour.unwrap_or(PLAIN),
+            reversed: own.reversed,
+        }
+    };
+    let labels: Vec<Label> = made.faces().iter().map(label).collect();
+    let (sender, receiver) = mpsc::channel();
+    let waker = waker.clone();
+    let spawned = std::thread::Builder::new().name("hairline-export".into()).spawn(move || {
+        let work = std::panic::AssertUnwindSafe(|| write(&path, format, &made, &labels));
+        let result = std::panic::catch_unwind(work)
+            .unwrap_or_else(|_| Err(format!("{}: internal error while writing", path.display())));
+        // The receiver is gone only when the program ends.
+        let _ = sender.send(result);
+        waker.wake();
+    });
+    match spawned {
+        Ok(_) => exporting.writer = Some(Mutex::new(receiver)),
+        Err(error) => notices.error(format!("not written: cannot start a thread: {error}")),
     }
 }
 

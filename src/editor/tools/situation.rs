@@ -9,7 +9,6 @@ use crate::editor::inspection::{Chosen, Findings, can_close};
 use crate::editor::object::{FaceChange, Scene, Shown};
 use crate::editor::selection::Selection;
 use crate::editor::settings::Settings;
-use crate::editor::tessellation::Tessellation;
 
 /// What is open, selected and going on.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -32,8 +31,6 @@ pub struct Situation {
     pub gap: bool,
     /// Triangles of a tessellation are shown.
     pub triangles: bool,
-    /// There is a tessellation of the model as it is.
-    pub mesh: bool,
     /// There is something that no file holds.
     pub unsaved: bool,
     /// There is a face whose trims can be edited.
@@ -62,7 +59,6 @@ impl Situation {
         inspection: true,
         gap: true,
         triangles: true,
-        mesh: true,
         unsaved: true,
         face: true,
         loops: 1,
@@ -85,7 +81,7 @@ pub(super) fn observe(
     loading: Res<Loading>,
     findings: Res<Findings>,
     chosen: Res<Chosen>,
-    (tessellation, settings): (Res<Tessellation>, Res<Settings>),
+    settings: Res<Settings>,
     editing: Res<Editing>,
     active: Res<ActiveFace>,
     elements: Res<ElementSelection>,
@@ -114,7 +110,6 @@ pub(super) fn observe(
         inspection: findings.inspection().is_some(),
         gap: chosen.edge.and_then(|key| findings.edge(&key)).is_some_and(can_close),
         triangles: settings.tessellation.replaces_surfaces(),
-        mesh: tessellation.current().is_some(),
         unsaved: editing.is_unsaved(),
         face: face.is_some(),
         loops: elements.map_or(0, |e| e.loops().len()),

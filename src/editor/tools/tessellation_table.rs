@@ -14,9 +14,6 @@ const fn with_model(s: &Situation) -> bool {
 const fn with_triangles(s: &Situation) -> bool {
     s.triangles
 }
-const fn with_mesh(s: &Situation) -> bool {
-    s.mesh
-}
 
 const fn code(code: KeyCode) -> Shortcut {
     Shortcut::code(code)
@@ -92,5 +89,5 @@ pub(super) const ROWS: &[Command] = &[
         &[key('e').ctrl().shift()],
     )
     .separated()
-    .when(with_mesh),
+    .when(with_model),
 ];

@@ -139,9 +139,7 @@ fn head(ui: &mut Ui, reads: &Reads, writes: &mut Writes, panel: &mut Tessellatio
                 panel.choose(TessellationChoices { view: TessellationView::Off, ..choices.clone() }, writes);
             }
             ui.add_space(6.0);
-            let ready = reads.situation.0.mesh;
-            let button = ui.add_enabled(ready, egui::Button::new("Export…"));
-            if button.on_hover_text(hint(Action::ExportMesh)).clicked() {
+            if ui.button("Export…").on_hover_text(hint(Action::ExportMesh)).clicked() {
                 writes.commands.write(CommandRequest(Action::ExportMesh));
                 writes.redraw.write(RequestRedraw);
             }
