@@ -23,6 +23,9 @@ const BELOW_ONE: f32 = 0.99999994;
 // that no ray passes between them.
 const ROUNDING_UV: f32 = 1.2e-7;
 
+// Whether all curves are lines, of degree 2 or polynomial cubics, whose records are handed to `crossing` whole.
+override SHORT_RECORDS: bool = false;
+
 struct Verdict {
     inside: bool,
     evaluations: u32,
@@ -33,6 +36,13 @@ struct Crossing {
     right: bool,
     near: bool,
     evaluations: u32,
+}
+
+// What the ends of a segment tell about a point.
+struct Told {
+    told: bool,        // all there is to know
+    value: bool,
+    near: bool,
 }
 
 fn cross2(a: vec2f, b: vec2f) -> f32 {
@@ -55,6 +65,14 @@ fn cubic_bounds(q: vec4f, d: vec2f) -> vec2f {
 fn cubic_point(q: vec4f, d: vec2f, t: f32) -> vec2f {
     let s = 1.0 - t;
     return t * (s * (s * q.xy + t * q.zw) + t * t * d);
+}
+
+// The same as curve_point for degree 2, from the second word of four of the record.
+fn quadratic_point(q: vec4f, d: vec2f, rational: bool, t: f32) -> vec2f {
+    let s = 1.0 - t;
+    let x = (t * q.yz) * s + (t * t) * d;
+    let w = (s + t * q.w) * s + t * t;
+    return select(x, x / w, rational);
 }
 
 // Horner's scheme in scaled Bernstein form, of degree 2 or more.
@@ -94,8 +112,22 @@ fn is_near(side: f32, bounds: vec2f, d: vec2f) -> bool {
     return side >= bounds.x - slack && side <= bounds.y + slack;
 }
 
-// Whether the segment's u at height v is larger than u, for points in the box of its ends.
-fn crossing(address: u32, ends: vec4f, entry: u32, u: f32, v: f32) -> Crossing {
+fn ends_tell(ends: vec4f, entry: u32, u: f32, v: f32) -> Told {
+    let below = v < ends.y;
+    let above = v >= ends.w;
+    let left = min(ends.x, ends.z);
+    let right = max(ends.x, ends.z);
+    let told = below || above || u < left || u >= right;
+    let aside = select(u < left, (entry & ENTRY_HI) != 0u, above);
+    let value = select(aside, (entry & ENTRY_LO) != 0u, below);
+    let beside = select(u <= right + 2.0 * ROUNDING_UV, u >= left - 2.0 * ROUNDING_UV, u < left);
+    let over = select(beside, v <= ends.w + 2.0 * ROUNDING_UV, above);
+    return Told(told, value, told && select(over, v >= ends.y - 2.0 * ROUNDING_UV, below));
+}
+
+// Whether the segment's u at height v is larger than u, for points in the box of its ends. `short`: the words of the record
+// behind the ends, of short records.
+fn crossing(address: u32, ends: vec4f, short: vec4f, entry: u32, u: f32, v: f32) -> Crossing {
     let p = vec2f(u, v) - ends.xy;
     let d = ends.zw - ends.xy;
     let degree = ((entry >> 4u) & 63u) + 1u;
@@ -105,7 +137,10 @@ fn crossing(address: u32, ends: vec4f, entry: u32, u: f32, v: f32) -> Crossing {
         return Crossing(side < 0.0, is_near(side, vec2f(0.0), d), 0u);
     }
     let compact = degree == 3u && !rational;
-    let q = load_trim_data(address + 1u);
+    var q = short;
+    if (!SHORT_RECORDS) {
+        q = load_trim_data(address + 1u);
+    }
     let fat = bitcast<u32>(q.x);
     let stored = vec2f(bitcast<f32>(fat & 0xffff0000u), bitcast<f32>(fat << 16u));
     let bounds = select(stored, cubic_bounds(q, d), compact);
@@ -124,7 +159,9 @@ fn crossing(address: u32, ends: vec4f, entry: u32, u: f32, v: f32) -> Crossing {
         dt *= 0.5;
         band *= 0.125;
         var m: vec2f;
-        if (compact) {
+        if (SHORT_RECORDS) {
+            m = select(quadratic_point(q, d, rational, t + dt), cubic_point(q, d, t + dt), compact);
+        } else if (compact) {
             m = cubic_point(q, d, t + dt);
         } else {
             m = curve_point(address, d, degree, rational, t + dt);
@@ -203,23 +240,16 @@ fn classify(grid: GridHeader, u_in: f32, v_in: f32) -> Verdict {
                 address = grid.data_base + (entry >> 10u);
                 ends = load_trim_data(address);
                 e++;
-                let below = v < ends.y;
-                let above = v >= ends.w;
-                let left = min(ends.x, ends.z);
-                let right = max(ends.x, ends.z);
-                told = below || above || u < left || u >= right;
-                let aside = select(u < left, (entry & ENTRY_HI) != 0u, above);
-                let value = select(aside, (entry & ENTRY_LO) != 0u, below);
-                let beside = select(u <= right + 2.0 * ROUNDING_UV, u >= left - 2.0 * ROUNDING_UV, u < left);
-                let over = select(beside, v <= ends.w + 2.0 * ROUNDING_UV, above);
-                near |= told && select(over, v >= ends.y - 2.0 * ROUNDING_UV, below);
-                winding += select(0, select(1, -1, (entry & ENTRY_DOWN) != 0u), told && value);
+                let by_ends = ends_tell(ends, entry, u, v);
+                told = by_ends.told;
+                near |= by_ends.near;
+                winding += select(0, select(1, -1, (entry & ENTRY_DOWN) != 0u), told && by_ends.value);
                 if (!told || e >= last) {
                     break;
                 }
             }
             if (!told) {
-                let c = crossing(address, ends, entry, u, v);
+                let c = crossing(address, ends, vec4f(0.0), entry, u, v);
                 near |= c.near;
                 evaluations += c.evaluations;
                 winding += select(0, select(1, -1, (entry & ENTRY_DOWN) != 0u), c.right);
@@ -231,4 +261,12 @@ fn classify(grid: GridHeader, u_in: f32, v_in: f32) -> Verdict {
     }
     let inside = select((winding & 1) != 0, winding != 0, (grid.flags & GRID_NON_ZERO) != 0u);
     return Verdict(inside, evaluations, near);
+}
+
+// The value of a segment with a short record, and whether it is near, at a point clamped to the parameters.
+fn value_of(ends: vec4f, short: vec4f, entry: u32, uv: vec2f) -> Told {
+    let p = clamp(uv, vec2f(0.0), vec2f(BELOW_ONE));
+    let by_ends = ends_tell(ends, entry, p.x, p.y);
+    let c = crossing(0u, ends, short, entry, p.x, p.y);
+    return Told(true, select(c.right, by_ends.value, by_ends.told), select(c.near, by_ends.near, by_ends.told));
 }

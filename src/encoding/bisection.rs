@@ -6,7 +6,7 @@
 
 use std::collections::{HashMap, VecDeque};
 
-use super::coverage::{Coverage, triangle_coverage};
+use super::lone_curve::TriangleTrim;
 use crate::kernel::face::Face;
 use crate::kernel::tessellate::UntrimmedMesh;
 
@@ -16,23 +16,17 @@ pub struct SortedMesh {
     /// Vertices and triangles; normals of new vertices are no units.
     pub mesh: UntrimmedMesh,
     /// Of each triangle.
-    pub coverage: Vec<Coverage>,
+    pub trims: Vec<TriangleTrim>,
 }
 
 /// Sorts the triangles of `mesh` by what the trims of `face` leave of them, and halves those that trims pass through until
 /// their sides are no longer than `length` (model units) or there are `most` triangles.
 pub fn sort_triangles(mesh: UntrimmedMesh, face: &Face, length: f64, most: usize) -> SortedMesh {
-    let mut work = Bisection {
-        mesh,
-        coverage: Vec::new(),
-        sides: HashMap::new(),
-        waiting: VecDeque::new(),
-        face,
-        length,
-    };
+    let mut work =
+        Bisection { mesh, trims: Vec::new(), sides: HashMap::new(), waiting: VecDeque::new(), face, length };
     for k in 0..work.mesh.triangles.len() {
         let found = work.look(k);
-        work.coverage.push(found);
+        work.trims.push(found);
         for side in sides(work.mesh.triangles[k]) {
             work.sides.entry(side).or_default().push(k);
         }
@@ -46,7 +40,7 @@ pub fn sort_triangles(mesh: UntrimmedMesh, face: &Face, length: f64, most: usize
             work.halve(side);
         }
     }
-    SortedMesh { mesh: work.mesh, coverage: work.coverage }
+    SortedMesh { mesh: work.mesh, trims: work.trims }
 }
 
 /// A side, smaller vertex first.
@@ -62,7 +56,7 @@ fn sides([a, b, c]: [u32; 3]) -> [Side; 3] {
 
 struct Bisection<'a> {
     mesh: UntrimmedMesh,
-    coverage: Vec<Coverage>,
+    trims: Vec<TriangleTrim>,
     /// The triangles at a side. Only looked into: its order decides nothing.
     sides: HashMap<Side, Vec<usize>>,
     waiting: VecDeque<usize>,
@@ -71,20 +65,20 @@ struct Bisection<'a> {
 }
 
 impl Bisection<'_> {
-    fn look(&self, k: usize) -> Coverage {
+    fn look(&self, k: usize) -> TriangleTrim {
         let uv = self.mesh.triangles[k].map(|c| self.face.domain.normalise(self.mesh.uvs[c as usize]));
-        triangle_coverage(&self.face.grid, uv)
+        TriangleTrim::of(&self.face.grid, uv)
     }
 
     fn wait(&mut self, k: usize) {
-        if self.coverage[k] == Coverage::Mixed && self.long_side(k).is_some() {
+        if self.long_side(k).is_some() {
             self.waiting.push_back(k);
         }
     }
 
     /// The longest side of a triangle that trims pass through, if it is too long.
     fn long_side(&self, k: usize) -> Option<Side> {
-        if self.coverage[k] != Coverage::Mixed {
+        if !self.trims[k].is_mixed() {
             return None;
         }
         let length = |s: &Side| {
@@ -121,11 +115,11 @@ impl Bisection<'_> {
                     there.push(k);
                 }
             }
-            let inherited = self.coverage[k];
-            self.coverage.push(inherited);
-            if inherited == Coverage::Mixed {
+            let inherited = self.trims[k];
+            self.trims.push(inherited);
+            if inherited.is_mixed() {
                 for half in [k, new] {
-                    self.coverage[half] = self.look(half);
+                    self.trims[half] = self.look(half);
                     self.wait(half);
                 }
             }
@@ -157,7 +151,7 @@ mod tests {
             let sorted = sort_triangles(whole.clone(), &face, 0.3, 60_000);
             let mesh = &sorted.mesh;
             divided += usize::from(mesh.triangles.len() > whole.triangles.len());
-            assert_eq!(mesh.triangles.len(), sorted.coverage.len());
+            assert_eq!(mesh.triangles.len(), sorted.trims.len());
             let after: f64 = mesh.triangles.iter().map(|t| double_area(mesh, *t)).sum();
             assert!((after - area).abs() <= 1e-9 * area.abs(), "{after} of {area}");
             assert!(mesh.triangles.iter().all(|t| double_area(mesh, *t) > 0.0), "none is turned over");
@@ -171,11 +165,11 @@ mod tests {
                     |get: fn(DVec2) -> f64| get(p) == get(q) && (get(p) == get(min) || get(p) == get(max));
                 assert!(count == 2 || count == 1 && (on(|p| p.x) || on(|p| p.y)), "{count} at {p} {q}");
             }
-            for (triangle, coverage) in mesh.triangles.iter().zip(&sorted.coverage) {
+            for (triangle, trim) in mesh.triangles.iter().zip(&sorted.trims) {
                 let [a, b, c] = triangle.map(|k| face.domain.normalise(mesh.uvs[k as usize]));
                 for (s, t) in [(0.1, 0.1), (0.8, 0.1), (0.1, 0.8), (0.33, 0.33)] {
                     let kept = face.grid.classify((a + (b - a) * s + (c - a) * t).as_vec2());
-                    assert!(*coverage == Coverage::Mixed || kept == (*coverage == Coverage::Whole));
+                    assert!(trim.is_mixed() || kept == (*trim == TriangleTrim::Whole));
                 }
             }
         }

@@ -3,7 +3,7 @@
 
 use glam::{DVec2, Vec2};
 
-use crate::kernel::trim::grid::layout::{CELL_REFINED, CELL_SHIFT, ENTRY_SHIFT, MAX_LEVELS};
+use crate::kernel::trim::grid::layout::{CELL_REFINED, CELL_SHIFT, ENTRY_SHIFT, GridHeader, MAX_LEVELS};
 use crate::kernel::trim::record::{crossing, load};
 use crate::kernel::trim::{ParityGrid, TrimStructure};
 
@@ -25,25 +25,33 @@ pub fn coverage(grid: &ParityGrid, min: DVec2, max: DVec2) -> Coverage {
     if header.columns == 0 || header.rows == 0 {
         return Coverage::Empty;
     }
-    const MARGIN: f64 = 1e-5;
     let rect = Rect { min: (min - MARGIN).as_vec2(), max: (max + MARGIN).as_vec2() };
-    let block = Block {
-        first: header.cell_base,
-        columns: header.columns,
-        rows: header.rows,
-        min: Vec2::ZERO,
-        size: Vec2::ONE,
-    };
-    if block.meets(grid, &rect, MAX_LEVELS) {
+    if Block::outer(grid).visit(grid, &rect, MAX_LEVELS, &mut |_| true) {
         return Coverage::Mixed;
     }
     let middle = (0.5 * (min + max)).as_vec2();
     if grid.classify(middle) { Coverage::Whole } else { Coverage::Empty }
 }
 
+/// By how much rectangles are widened at least.
+pub(super) const MARGIN: f64 = 1e-5;
+
 struct Rect {
     min: Vec2,
     max: Vec2,
+}
+
+/// Looks at the segments that touch the rectangle `min..max` (normalised), widened by `margin`, entry word by entry word, some of
+/// them more than once. Stops, and says so, when `stop` does or where the grid cannot tell.
+pub(super) fn any_touching(
+    grid: &ParityGrid,
+    (min, max): (DVec2, DVec2),
+    margin: DVec2,
+    stop: &mut impl FnMut(u32) -> bool,
+) -> bool {
+    let rect = Rect { min: (min - margin).as_vec2(), max: (max + margin).as_vec2() };
+    let header = &grid.header;
+    header.columns == 0 || header.rows == 0 || Block::outer(grid).visit(grid, &rect, MAX_LEVELS, stop)
 }
 
 /// What trimming leaves of a triangle in parameters: of the boxes of its quarters, and of theirs.
@@ -75,8 +83,14 @@ struct Block {
 }
 
 impl Block {
-    /// Whether a segment listed in a cell under the rectangle touches it, as far as `levels` of blocks tell.
-    fn meets(&self, grid: &ParityGrid, rect: &Rect, levels: u32) -> bool {
+    fn outer(grid: &ParityGrid) -> Self {
+        let GridHeader { cell_base, columns, rows, .. } = grid.header;
+        Self { first: cell_base, columns, rows, min: Vec2::ZERO, size: Vec2::ONE }
+    }
+
+    /// Looks at segments listed in cells under the rectangle that touch it, as far as `levels` of blocks tell, until `stop` says
+    /// so. Whether it did, or blocks are nested deeper or broken.
+    fn visit(&self, grid: &ParityGrid, rect: &Rect, levels: u32, stop: &mut impl FnMut(u32) -> bool) -> bool {
         let header = &grid.header;
         let cell_size = self.size / Vec2::new(self.columns as f32, self.rows as f32);
         let range = |low: f32, high: f32, count: u32| {
@@ -96,14 +110,14 @@ impl Block {
                     let min = self.min + cell_size * Vec2::new(column as f32, row as f32);
                     let first = header.cell_base + start;
                     let inner = Self { first, columns: *k, rows: *k, min, size: cell_size };
-                    if levels <= 1 || *k == 0 || inner.meets(grid, rect, levels - 1) {
+                    if levels <= 1 || *k == 0 || inner.visit(grid, rect, levels - 1, stop) {
                         return true;
                     }
                     continue;
                 }
                 let list = (cell >> CELL_SHIFT) as usize..(next >> CELL_SHIFT) as usize;
                 let Some(entries) = grid.entries.get(list) else { return true };
-                if entries.iter().any(|e| passes(grid, *e, rect)) {
+                if entries.iter().any(|e| passes(grid, *e, rect) && stop(*e)) {
                     return true;
                 }
             }

@@ -5,7 +5,7 @@
 //! whole are marked, so that no curve is looked at there. Positions are relative to an origin of the face,
 //! rounded like those of cells.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
@@ -15,8 +15,8 @@ use rayon::prelude::*;
 use super::arena::Arena;
 use super::bisection::{SortedMesh, sort_triangles};
 use super::cell::split_high_low;
-use super::coverage::Coverage;
 use super::level::{LevelView, level_error};
+use super::lone_curve::TriangleTrim;
 use super::scene::{FaceSlot, PackedScene};
 use crate::kernel::face::Face;
 use crate::kernel::tessellate::{TessellationOptions, UntrimmedMesh, untrimmed};
@@ -32,13 +32,15 @@ pub struct MeshVertex {
     pub normal: [f32; 3],
     pub flags: u32,
     pub uv: [f32; 2],
+    pub entry: u32,
     pub pad0: u32,
-    pub pad1: u32,
 }
 
 impl MeshVertex {
     /// No trim curve passes through the triangle.
     pub const WHOLE: u32 = 1;
+    /// Points are kept where the value of `entry`, the only segment that passes through the triangle, is 0.
+    pub const ZERO_KEPT: u32 = 2;
 }
 
 /// Mirror of `MeshOrigin` in `shaders/layout/mesh.wgsl`.
@@ -55,10 +57,9 @@ pub struct MeshOrigin {
 #[derive(Debug, Clone)]
 struct Part {
     vertices: Range<u32>,
-    /// Corners of the triangles that are kept whole: positions in the scene's vertex array.
-    whole: Vec<u32>,
-    /// Of those that trims pass through.
-    trimmed: Vec<u32>,
+    /// Corners of the triangles, positions in the scene's vertex array: of those that are kept whole, that one segment passes
+    /// through, and of others.
+    lists: [Vec<u32>; 3],
 }
 
 /// A face takes no more triangles than this; where it would, it is better cast.
@@ -95,7 +96,7 @@ pub struct MeshScene {
     refused: BTreeSet<(FaceSlot, i32)>,
     selected: Vec<(FaceSlot, i32)>,
     indices: Vec<u32>,
-    whole_count: usize,
+    ends: [usize; 3],
     revision: u64,
 }
 
@@ -153,11 +154,10 @@ impl MeshScene {
     pub fn insert(&mut self, slot: FaceSlot, level: i32, mesh: &SortedMesh, face: &Face) {
         self.drop_part((slot, level));
         let origin = self.origin_of(slot, mesh);
-        let (vertices, [whole, trimmed]) = compact(slot, mesh, face, origin);
+        let (vertices, lists) = compact(slot, mesh, face, origin);
         let vertices = self.vertices.insert(&vertices);
-        let placed = |indices: Vec<u32>| indices.into_iter().map(|i| vertices.start + i).collect();
-        let (whole, trimmed) = (placed(whole), placed(trimmed));
-        self.parts.insert((slot, level), Part { vertices, whole, trimmed });
+        let lists = lists.map(|indices| indices.into_iter().map(|i| vertices.start + i).collect());
+        self.parts.insert((slot, level), Part { vertices, lists });
         self.selected.clear();
     }
 
@@ -196,12 +196,11 @@ impl MeshScene {
         chosen.sort_unstable();
         if chosen != self.selected || self.indices.is_empty() {
             self.indices.clear();
-            for key in &chosen {
-                self.indices.extend_from_slice(&self.parts[key].whole);
-            }
-            self.whole_count = self.indices.len();
-            for key in &chosen {
-                self.indices.extend_from_slice(&self.parts[key].trimmed);
+            for list in 0..self.ends.len() {
+                for key in &chosen {
+                    self.indices.extend_from_slice(&self.parts[key].lists[list]);
+                }
+                self.ends[list] = self.indices.len();
             }
             self.selected = chosen;
             self.revision += 1;
@@ -209,14 +208,14 @@ impl MeshScene {
         lacking
     }
 
-    /// Vertex positions of the selected triangles, three each: those that are kept whole come first.
+    /// Vertex positions of the selected triangles, three each: see [`Self::ends`].
     pub fn indices(&self) -> &[u32] {
         &self.indices
     }
 
-    /// How many of the indices are of triangles that are kept whole.
-    pub fn whole_count(&self) -> usize {
-        self.whole_count
+    /// Where lists end in the indices: of triangles that are kept whole, that one trim segment alone passes through, of others.
+    pub fn ends(&self) -> [usize; 3] {
+        self.ends
     }
 
     /// All vertices, free ones included.
@@ -280,41 +279,47 @@ pub fn wanted<'a>(
     shown.filter_map(move |slot| Some((slot, view.level(&scene.face_bounds(slot)?, error_px)?)))
 }
 
-/// Triangles that show anything, and whether they are kept whole.
-fn kept(sorted: &SortedMesh) -> impl Iterator<Item = ([u32; 3], bool)> + '_ {
-    let all = sorted.mesh.triangles.iter().zip(&sorted.coverage);
-    all.filter(|(_, found)| **found != Coverage::Empty).map(|(t, found)| (*t, *found == Coverage::Whole))
+/// Triangles that show anything.
+fn kept(sorted: &SortedMesh) -> impl Iterator<Item = ([u32; 3], TriangleTrim)> + '_ {
+    let all = sorted.mesh.triangles.iter().zip(&sorted.trims);
+    all.filter(|(_, trim)| **trim != TriangleTrim::Empty).map(|(t, trim)| (*t, *trim))
 }
 
-/// The vertices that are used, once for whole triangles and once for others, and the indices into them of both.
+/// The vertices that are used, once for triangles of the same kind, and the indices into them of the lists.
 fn compact(
     slot: FaceSlot,
     sorted: &SortedMesh,
     face: &Face,
     origin: DVec3,
-) -> (Vec<MeshVertex>, [Vec<u32>; 2]) {
-    const UNUSED: u32 = u32::MAX;
+) -> (Vec<MeshVertex>, [Vec<u32>; 3]) {
     let mesh = &sorted.mesh;
-    let mut numbers = [vec![UNUSED; mesh.uvs.len()], vec![UNUSED; mesh.uvs.len()]];
-    let (mut vertices, mut indices) = (Vec::new(), [Vec::new(), Vec::new()]);
-    for (triangle, whole) in kept(sorted) {
-        let list = usize::from(!whole);
-        for c in triangle.map(|c| c as usize) {
-            let number = &mut numbers[list][c];
-            if *number == UNUSED {
-                *number = vertices.len() as u32;
+    // Only looked into: its order decides nothing.
+    let mut numbers: HashMap<(TriangleTrim, u32), u32> = HashMap::new();
+    let (mut vertices, mut lists) = (Vec::new(), [const { Vec::new() }; 3]);
+    for (triangle, trim) in kept(sorted) {
+        let (list, flags, entry) = match trim {
+            TriangleTrim::Empty => continue,
+            TriangleTrim::Whole => (0, MeshVertex::WHOLE, 0),
+            TriangleTrim::Lone(curve) if curve.zero_kept => (1, MeshVertex::ZERO_KEPT, curve.entry),
+            TriangleTrim::Lone(curve) => (1, 0, curve.entry),
+            TriangleTrim::Several => (2, 0, 0),
+        };
+        for corner in triangle {
+            let c = corner as usize;
+            let number = *numbers.entry((trim, corner)).or_insert_with(|| {
                 vertices.push(MeshVertex {
                     position: (mesh.positions[c] - origin).as_vec3().to_array(),
                     face: slot.0,
                     normal: mesh.normals[c].as_vec3().to_array(),
-                    flags: if whole { MeshVertex::WHOLE } else { 0 },
+                    flags,
                     uv: face.domain.normalise(mesh.uvs[c]).as_vec2().to_array(),
+                    entry,
                     pad0: 0,
-                    pad1: 0,
                 });
-            }
-            indices[list].push(*number);
+                vertices.len() as u32 - 1
+            });
+            lists[list].push(number);
         }
     }
-    (vertices, indices)
+    (vertices, lists)
 }

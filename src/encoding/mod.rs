@@ -7,6 +7,7 @@ pub mod coverage;
 pub mod extras;
 pub mod face;
 pub mod level;
+pub mod lone_curve;
 pub mod look;
 pub mod mesh;
 pub mod options;

@@ -65,8 +65,8 @@ impl PackedMesh {
             normal: normal.as_vec3().to_array(),
             flags: 0,
             uv: face.domain.normalise(*uv).as_vec2().to_array(),
+            entry: 0,
             pad0: 0,
-            pad1: 0,
         };
         Self {
             origin,

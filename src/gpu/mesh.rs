@@ -11,22 +11,22 @@ use super::pipelines::{self, Pass};
 use super::renderer::{Renderer, Sample};
 use super::targets::{Targets, within};
 use crate::encoding::options::cast_flags;
-use crate::encoding::view::CAST_TRIM;
+use crate::encoding::view::{CAST_HEAT, CAST_TRIM};
 use crate::encoding::{FaceSlot, MeshScene, PackedScene, View};
 
 /// Buffers, pipelines and draw lists.
 #[derive(Debug)]
 pub(super) struct MeshPass {
-    whole: Pass,
-    trimmed: Pass,
+    /// For the lists of [`MeshScene::ends`].
+    passes: [Pass; 3],
     vertices: Mirror,
     origins: Mirror,
     indices: wgpu::Buffer,
-    /// Of triangles that are kept whole, which come first, and of all.
-    index_counts: [u32; 2],
+    /// Where lists end in the indices.
+    ends: [u32; 3],
     revision: Option<u64>,
-    /// For either pipeline.
-    groups: Option<[wgpu::BindGroup; 2]>,
+    /// For each pipeline.
+    groups: Option<[wgpu::BindGroup; 3]>,
     /// Cells of the faces without triangles.
     order: wgpu::Buffer,
     order_count: u32,
@@ -37,12 +37,11 @@ pub(super) struct MeshPass {
 impl MeshPass {
     pub fn new(device: &wgpu::Device) -> Self {
         Self {
-            whole: pipelines::mesh(device, false),
-            trimmed: pipelines::mesh(device, true),
+            passes: pipelines::meshes(device),
             vertices: Mirror::new(device, "mesh vertices", 4096),
             origins: Mirror::new(device, "mesh origins", 4096),
             indices: buffer(device, "mesh indices", 4096, wgpu::BufferUsages::INDEX),
-            index_counts: [0; 2],
+            ends: [0; 3],
             revision: None,
             groups: None,
             order: buffer(device, "mesh order", 4096, wgpu::BufferUsages::STORAGE),
@@ -71,7 +70,7 @@ impl MeshPass {
             let data: &[u8] = bytemuck::cast_slice(meshes.indices());
             fit(device, &mut self.indices, "mesh indices", data.len(), wgpu::BufferUsages::INDEX);
             queue.write_buffer(&self.indices, 0, data);
-            self.index_counts = [meshes.whole_count() as u32, meshes.indices().len() as u32];
+            self.ends = meshes.ends().map(|end| end as u32);
             self.revision = Some(meshes.revision());
             bytes += data.len() as u64;
         }
@@ -106,7 +105,7 @@ impl MeshPass {
     ) {
         if self.groups.is_none() {
             let arrays = || buffers.trims().into_iter().chain([&self.vertices.buffer, &self.origins.buffer]);
-            self.groups = Some([&self.whole, &self.trimmed].map(|pass| {
+            self.groups = Some(self.passes.each_ref().map(|pass| {
                 let mut resources = vec![uniform.clone()];
                 resources.extend(arrays().map(wgpu::Buffer::as_entire_binding));
                 group(device, "mesh", &pass.layout, resources)
@@ -119,18 +118,24 @@ impl MeshPass {
     }
 
     /// Draws triangles, those that need no trimming first, then casts what has none; `view_slot` is the offset of the view's
-    /// uniform block, `trims` whether it trims.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass, view_slot: u32, trims: bool, cast: &Pass) {
-        let [whole, all] = self.index_counts;
-        let first = if trims { whole } else { all };
-        if let Some([whole_group, trimmed_group]) = &self.groups {
-            let lists = [(&self.whole, whole_group, 0..first), (&self.trimmed, trimmed_group, first..all)];
-            for (with, group, list) in lists.into_iter().filter(|(.., list)| !list.is_empty()) {
+    /// uniform block.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass, view_slot: u32, flags: u32, cast: &Pass) {
+        let [whole, lone, all] = self.ends;
+        // What the grid takes to tell is asked for as a picture: then it is asked everywhere.
+        let ends = match (flags & CAST_TRIM != 0, flags & CAST_HEAT != 0) {
+            (false, _) => [all; 3],
+            (true, true) => [whole, whole, all],
+            (true, false) => [whole, lone, all],
+        };
+        let mut from = 0;
+        for ((with, group), end) in self.passes.iter().zip(self.groups.iter().flatten()).zip(ends) {
+            if from < end {
                 pass.set_pipeline(&with.pipeline);
                 pass.set_bind_group(0, group, &[view_slot]);
                 pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-                pass.draw_indexed(list, 0, 0..1);
+                pass.draw_indexed(from..end, 0, 0..1);
             }
+            from = end;
         }
         if self.order_count > 0 {
             pass.set_pipeline(&cast.pipeline);
@@ -192,7 +197,7 @@ impl Renderer {
         let mut pass = begin_visibility(encoder, "mesh", &self.targets, &self.nearest, true);
         if let Some(mesh) = self.mesh.as_ref().filter(|_| columns > 0) {
             pass.set_scissor_rect(0, 0, columns, size[1]);
-            mesh.draw(&mut pass, slot, view.flags & CAST_TRIM != 0, cast);
+            mesh.draw(&mut pass, slot, view.flags, cast);
         }
         self.tessellated.draw(&mut pass, slot, size);
     }

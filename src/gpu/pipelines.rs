@@ -63,6 +63,8 @@ struct Recipe<'a> {
     constants: &'a [(&'a str, f64)],
     bindings: &'a [wgpu::BindingType],
     target: wgpu::ColorTargetState,
+    /// A second target.
+    also: Option<wgpu::ColorTargetState>,
     /// How depths are compared, and whether they are written.
     depth: Option<(wgpu::CompareFunction, bool)>,
     /// Triangle strips, and which of their sides are left out.
@@ -80,6 +82,7 @@ impl<'a> Recipe<'a> {
             constants: &[],
             bindings,
             target: unblended(VISIBILITY_FORMAT),
+            also: None,
             depth: Some((wgpu::CompareFunction::Greater, true)),
             strip: None,
         }
@@ -119,6 +122,7 @@ impl Pipelines {
             constants: &[],
             bindings: &present_bindings,
             target,
+            also: None,
             depth,
             strip: None,
         };
@@ -185,6 +189,7 @@ pub(super) fn resolve(device: &wgpu::Device, shading: Shading) -> Pass {
                 blend: Some(wgpu::BlendState { color: add, alpha: add }),
                 ..unblended(SUM_FORMAT)
             },
+            also: None,
             depth: Some((wgpu::CompareFunction::Less, false)),
             strip: None,
         },
@@ -200,17 +205,25 @@ pub(super) fn conceal(device: &wgpu::Device) -> Pass {
     build(device, &Recipe { strip: Some(None), ..recipe })
 }
 
-/// A pipeline that draws triangles of untrimmed surfaces, with stages that trim or ones that do not.
-pub(super) fn mesh(device: &wgpu::Device, trims: bool) -> Pass {
+/// Pipelines that draw triangles of untrimmed surfaces: those that are kept whole, that one segment alone passes through, and
+/// others.
+pub(super) fn meshes(device: &wgpu::Device) -> [Pass; 3] {
     let bindings = super::mesh::bindings();
     let whole = Recipe::visibility("mesh", shaders::MESH, &bindings);
+    let lone = Recipe {
+        label: "mesh lone",
+        vertex: "vertex_lone",
+        fragment: "fragment_lone",
+        constants: &[("SHORT_RECORDS", 1.0)],
+        ..Recipe::visibility("mesh", shaders::MESH, &bindings)
+    };
     let trimmed = Recipe {
         label: "mesh trimmed",
         vertex: "vertex_trimmed",
         fragment: "fragment_trimmed",
         ..Recipe::visibility("mesh", shaders::MESH, &bindings)
     };
-    build(device, if trims { &trimmed } else { &whole })
+    [whole, lone, trimmed].map(|recipe| build(device, &recipe))
 }
 
 /// The pipeline that draws the triangles of a tessellation.
@@ -257,6 +270,8 @@ fn build(device: &wgpu::Device, recipe: &Recipe) -> Pass {
         },
         None => wgpu::PrimitiveState::default(),
     };
+    let also = recipe.also.iter().map(|target| Some(target.clone()));
+    let targets: Vec<_> = std::iter::once(Some(recipe.target.clone())).chain(also).collect();
     let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(recipe.label),
         layout: Some(&pipeline_layout),
@@ -282,7 +297,7 @@ fn build(device: &wgpu::Device, recipe: &Recipe) -> Pass {
                 constants: recipe.constants,
                 ..Default::default()
             },
-            targets: &[Some(recipe.target.clone())],
+            targets: &targets,
         }),
         multiview_mask: None,
         cache: None,

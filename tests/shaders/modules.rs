@@ -63,13 +63,13 @@ fn rust_mirrors_match_the_shaders() {
     assert_eq!(members(&conceal, "RibbonPiece"), piece);
     assert_eq!(members(&conceal, "RibbonSpan"), layout!(RibbonSpan: piece, start, end, pad0));
     let mesh = parse(shaders::MESH);
-    let vertex = layout!(MeshVertex: position, face, normal, flags, uv, pad0, pad1);
+    let vertex = layout!(MeshVertex: position, face, normal, flags, uv, entry, pad0);
     assert_eq!(members(&mesh, "MeshVertex"), vertex);
     assert_eq!(members(&mesh, "MeshOrigin"), layout!(MeshOrigin: high, pad0, low, pad1));
     let tessellation = parse(shaders::TESSELLATION);
     assert_eq!(
         members(&tessellation, "MeshVertex"),
-        layout!(MeshVertex: position, face, normal, flags, uv, pad0, pad1)
+        layout!(MeshVertex: position, face, normal, flags, uv, entry, pad0)
     );
     let part = layout!(TessellationPart: high, slot, low, pad0);
     assert_eq!(members(&tessellation, "TessellationPart"), part);
@@ -99,6 +99,7 @@ fn constants_match() {
     assert_eq!(find(&cast, "CELL_WHOLE"), Cell::WHOLE);
     assert_eq!(find(&cast, "FACE_TRIMMED"), FaceHeader::TRIMMED);
     assert_eq!(find(&parse(shaders::MESH), "MESH_WHOLE"), MeshVertex::WHOLE);
+    assert_eq!(find(&parse(shaders::MESH), "MESH_ZERO_KEPT"), MeshVertex::ZERO_KEPT);
     assert_eq!(find(&parse(shaders::CONCEAL), "RIBBON_SEGMENTS"), hairline::encoding::ribbon::SEGMENTS);
     let resolve = parse(shaders::RESOLVE);
     assert_eq!(find(&resolve, "FACE_VISIBLE"), FaceHeader::VISIBLE);

@@ -73,3 +73,52 @@ fn triangles_show_what_rays_show_and_the_twin_draws_the_same() {
         assert!(1000 * unlike <= shown, "{unlike} of {shown} pixels differ from the twin");
     }
 }
+
+/// The picture of triangles in a mode.
+fn drawn(context: &Context, renderer: &mut Renderer, sample: &Sample) -> VisibilityBuffer {
+    let mut encoder = context.device.create_command_encoder(&Default::default());
+    renderer.draw_meshes(&context.device, &context.queue, &mut encoder, sample);
+    context.queue.submit([encoder.finish()]);
+    picture::read_visibility(context, renderer).expect("triangles")
+}
+
+#[test]
+fn triangles_with_a_lone_curve_are_trimmed_as_by_the_grid() {
+    let context = Context::headless().expect("a Vulkan driver, real or software (mesa-vulkan-drivers)");
+    let (faces, mut packed) = demo();
+    let mut renderer = Renderer::new(&context.device, wgpu::TextureFormat::Rgba8Unorm);
+    renderer.upload(&context.device, &context.queue, &mut packed).expect("room for the demo");
+    let bounds = packed.bounds();
+    let mut meshes = MeshScene::default();
+    let size = [480, 360];
+    for direction in [DVec3::NEG_Z, DVec3::new(-0.4, 0.9, -0.6).normalize()] {
+        let up = if direction.z == -1.0 { DVec3::Y } else { DVec3::Z };
+        let camera = Camera::fit(&bounds, direction, up, Projection::Perspective { fov_y: 0.5 }, 4.0 / 3.0);
+        let face = |slot: FaceSlot| faces.get(slot.0 as usize);
+        let lacking = meshes.prepare(&packed, face, &LevelView::new(&camera, size), 0.5);
+        let [whole, lone, all] = meshes.ends();
+        assert!(whole < lone && lone - whole > (all - lone) / 4, "{whole} {lone} {all}");
+        renderer
+            .upload_meshes(&context.device, &context.queue, &mut meshes, &packed, &lacking)
+            .expect("room for triangles");
+        let depth = DepthRange::around(&camera, bounds.centre(), 0.5 * bounds.diagonal());
+        let mut sample = Sample { camera, depth, size, jitter: [0.0; 2], mode: DisplayMode::Shaded };
+        let shaded = drawn(&context, &mut renderer, &sample);
+        // The heat of trimming asks the grid everywhere, and shows what it cuts off too.
+        sample.mode = DisplayMode::Heat;
+        let asked = drawn(&context, &mut renderer, &sample);
+        let (mut kept, mut cut) = (0, 0);
+        for (a, b) in shaded.fragments.iter().zip(&asked.fragments) {
+            if b.words[0] == 0 {
+                assert_eq!(a.words[0], 0);
+            } else if b.words[3] & 128 != 0 {
+                assert_eq!((a.words[..3].to_vec(), a.depth), (b.words[..3].to_vec(), b.depth));
+                kept += 1;
+            } else {
+                assert!(a.words[..3] != b.words[..3]);
+                cut += 1;
+            }
+        }
+        assert!(kept > 15_000 && cut > 1_000, "{kept} {cut}");
+    }
+}

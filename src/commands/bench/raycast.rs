@@ -8,7 +8,7 @@ use std::io::{self, Write};
 
 use glam::{DVec2, DVec3};
 
-use super::sheet::{Sheet, cpu_per_run, number};
+use super::sheet::{Sheet, cpu_medians, number};
 use crate::encoding::options::cast_flags;
 use crate::encoding::{
     DepthRange, DisplayMode, FaceShape, FaceSlot, LevelView, MeshChoice, MeshScene, PackedScene, View,
@@ -21,7 +21,13 @@ use crate::reference::{mesh, visibility};
 use crate::scene::records::ModelRecord;
 
 const SIZE: [u32; 2] = [1024, 768];
-const FRAMES: u32 = 5;
+/// Frames of each kind, one after the other; the median counts.
+const ROUNDS: u32 = 5;
+/// The same for frames from triangles, which are short, so that several are timed at a time.
+const MESH_ROUNDS: u32 = 40;
+const MESH_FRAMES: u32 = 4;
+/// What is compared: with trims and without.
+const MODES: [DisplayMode; 2] = [DisplayMode::Shaded, DisplayMode::Untrimmed];
 /// Error of the second renderer's triangles on the screen, pixels.
 const MESH_ERROR_PX: f64 = 0.5;
 
@@ -33,9 +39,8 @@ struct Frame {
     counts: CastCounts,
 }
 
-/// Something that casts frames: the twin, or the renderer on a driver.
-type Caster<'a> =
-    dyn FnMut(&mut PackedScene, Option<&mut MeshChoice>, &Camera, DisplayMode) -> Option<Frame> + 'a;
+/// Something that draws frames in either of [`MODES`]: the twin, or the renderer on a driver.
+type Caster<'a> = dyn FnMut(&mut PackedScene, Option<&mut MeshChoice>, &Camera) -> Option<[Frame; 2]> + 'a;
 
 /// Prints a table for each backend.
 ///
@@ -44,15 +49,14 @@ type Caster<'a> =
 pub fn run(models: &[ModelRecord], out: &mut impl Write) -> io::Result<()> {
     let demo = [crate::scene::demo::model()];
     let models = if models.is_empty() { &demo[..] } else { models };
-    table("the CPU twin", models, &mut twin_frame, out)?;
+    table("the CPU twin", models, &mut twin_frames, out)?;
     #[cfg(feature = "gpu")]
     match crate::gpu::Context::headless() {
         Ok(context) => {
             let name = context.adapter_name.clone();
-            let mut caster =
-                |scene: &mut PackedScene, meshes: Option<&mut MeshChoice>, camera: &Camera, mode| {
-                    gpu_frame(&context, scene, meshes, camera, mode).ok()
-                };
+            let mut caster = |scene: &mut PackedScene, meshes: Option<&mut MeshChoice>, camera: &Camera| {
+                gpu_frames(&context, scene, meshes, camera).ok()
+            };
             table(&name, models, &mut caster, out)?;
         }
         Err(error) => writeln!(out, "No table for the graphics driver: {error}\n")?,
@@ -81,6 +85,7 @@ fn table(name: &str, models: &[ModelRecord], caster: &mut Caster, out: &mut impl
             "triangles",
             "mesh s",
             "mesh untrimmed s",
+            "mesh trims %",
             "rays/mesh",
         ],
     );
@@ -91,18 +96,18 @@ fn table(name: &str, models: &[ModelRecord], caster: &mut Caster, out: &mut impl
         let projection = Projection::Perspective { fov_y: 0.6 };
         let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
         let camera = tight(&scene, Camera::fit(&scene.bounds(), direction, up, projection, aspect));
-        let trimmed = caster(&mut scene, None, &camera, DisplayMode::Shaded);
-        let untrimmed = caster(&mut scene, None, &camera, DisplayMode::Untrimmed);
+        let pair = |frames: Option<[Frame; 2]>| (frames.map(|f| f[0]), frames.map(|f| f[1]));
+        let (trimmed, untrimmed) = pair(caster(&mut scene, None, &camera));
         let (mut patch_scene, patch_camera) = one_patch(common_degrees(&faces));
-        let solve = caster(&mut patch_scene, None, &patch_camera, DisplayMode::Untrimmed)
-            .map(|f| f.seconds / f.filled.max(1) as f64);
+        let (_, solved) = pair(caster(&mut patch_scene, None, &patch_camera));
+        let solve = solved.map(|f| f.seconds / f.filled.max(1) as f64);
         let mut meshes = MeshScene::default();
         let face = |slot: FaceSlot| faces.get(slot.0 as usize);
         let lacking = meshes.prepare(&scene, face, &LevelView::new(&camera, SIZE), MESH_ERROR_PX);
         let triangles = (meshes.indices().len() / 3).to_string();
         let mut choice = MeshChoice { scene: meshes, lacking };
-        let meshed = caster(&mut scene, Some(&mut choice), &camera, DisplayMode::Shaded);
-        let meshed_whole = caster(&mut scene, Some(&mut choice), &camera, DisplayMode::Untrimmed);
+        let (meshed, meshed_whole) = pair(caster(&mut scene, Some(&mut choice), &camera));
+        let share = |a: Frame, b: Frame| 100.0 * (1.0 - b.seconds / a.seconds);
         let per_pixel = trimmed.map(|f| f.seconds / f.filled.max(1) as f64);
         let ratio = |a: Option<f64>, b: Option<f64>| Some(a? / b?);
         let mut row = vec![
@@ -124,6 +129,7 @@ fn table(name: &str, models: &[ModelRecord], caster: &mut Caster, out: &mut impl
             triangles,
             number(meshed.map(|f| f.seconds)),
             number(meshed_whole.map(|f| f.seconds)),
+            number(meshed.zip(meshed_whole).map(|(a, b)| share(a, b))),
             number(ratio(trimmed.map(|f| f.seconds), meshed.map(|f| f.seconds))),
         ]);
         sheet.row(row);
@@ -202,31 +208,34 @@ fn depth_of(scene: &PackedScene, camera: &Camera) -> DepthRange {
     DepthRange::around(camera, bounds.centre(), 0.5 * bounds.diagonal())
 }
 
-fn twin_frame(
+fn twin_frames(
     scene: &mut PackedScene,
     meshes: Option<&mut MeshChoice>,
     camera: &Camera,
-    mode: DisplayMode,
-) -> Option<Frame> {
-    let view = View::new(camera, SIZE, [0.0; 2], depth_of(scene, camera), cast_flags(mode));
-    let draw = || match &meshes {
-        Some(choice) => mesh::draw(scene, &choice.scene, &choice.lacking, &view),
-        None => visibility::draw(scene, &view),
+) -> Option<[Frame; 2]> {
+    let depth = depth_of(scene, camera);
+    let draw = |k: usize| {
+        let view = View::new(camera, SIZE, [0.0; 2], depth, cast_flags(MODES[k]));
+        match &meshes {
+            Some(choice) => mesh::draw(scene, &choice.scene, &choice.lacking, &view),
+            None => visibility::draw(scene, &view),
+        }
     };
-    let buffer = draw();
-    let filled = buffer.fragments.iter().filter(|f| f.words[0] != 0).count();
-    let seconds = cpu_per_run(FRAMES, || drop(draw()));
-    Some(Frame { seconds, filled, counts: buffer.counts })
+    let seconds = cpu_medians(MODES.len(), ROUNDS, 1, |k| drop(draw(k)));
+    Some(std::array::from_fn(|k| {
+        let buffer = draw(k);
+        let filled = buffer.fragments.iter().filter(|f| f.words[0] != 0).count();
+        Frame { seconds: seconds[k], filled, counts: buffer.counts }
+    }))
 }
 
 #[cfg(feature = "gpu")]
-fn gpu_frame(
+fn gpu_frames(
     context: &crate::gpu::Context,
     scene: &mut PackedScene,
     meshes: Option<&mut MeshChoice>,
     camera: &Camera,
-    mode: DisplayMode,
-) -> Result<Frame, crate::gpu::GpuError> {
+) -> Result<[Frame; 2], crate::gpu::GpuError> {
     use crate::gpu::{Renderer, Sample, picture::read_texture};
     let (device, queue) = (&context.device, &context.queue);
     let mut renderer = Renderer::new(device, wgpu::TextureFormat::Rgba8Unorm);
@@ -237,10 +246,9 @@ fn gpu_frame(
         meshes.touch_all();
         renderer.upload_meshes(device, queue, meshes, scene, lacking)?;
     }
-    let sample =
-        Sample { camera: *camera, depth: depth_of(scene, camera), size: SIZE, jitter: [0.0; 2], mode };
-    let mut failed = Ok(());
-    let mut cast = || {
+    let depth = depth_of(scene, camera);
+    let draw = |renderer: &mut Renderer, k: usize| {
+        let sample = Sample { camera: *camera, depth, size: SIZE, jitter: [0.0; 2], mode: MODES[k] };
         let mut encoder = device.create_command_encoder(&Default::default());
         if from_triangles {
             renderer.draw_meshes(device, queue, &mut encoder, &sample);
@@ -248,18 +256,25 @@ fn gpu_frame(
             renderer.cast(device, queue, &mut encoder, &sample);
         }
         queue.submit([encoder.finish()]);
-        let waited = context.wait();
+        context.wait()
+    };
+    // The first frame of each kind compiles shaders.
+    (0..MODES.len()).try_for_each(|k| draw(&mut renderer, k))?;
+    let (rounds, frames) = if from_triangles { (MESH_ROUNDS, MESH_FRAMES) } else { (ROUNDS, 1) };
+    let mut failed = Ok(());
+    let seconds = cpu_medians(MODES.len(), rounds, frames, |k| {
+        let waited = draw(&mut renderer, k);
         if waited.is_err() {
             failed = waited;
         }
-    };
-    // The first frame compiles the shaders.
-    cast();
-    // Short frames need many.
-    let frames = if from_triangles { 8 * FRAMES } else { FRAMES };
-    let seconds = cpu_per_run(frames, &mut cast);
+    });
     failed?;
-    let words = read_texture(context, &renderer.targets().visibility)?;
-    let filled = words.chunks_exact(16).filter(|w| w[..4] != [0; 4]).count();
-    Ok(Frame { seconds, filled, counts: CastCounts::default() })
+    let mut filled = [0; 2];
+    for (k, filled) in filled.iter_mut().enumerate() {
+        draw(&mut renderer, k)?;
+        let words = read_texture(context, &renderer.targets().visibility)?;
+        *filled = words.chunks_exact(16).filter(|w| w[..4] != [0; 4]).count();
+    }
+    let counts = CastCounts::default();
+    Ok(std::array::from_fn(|k| Frame { seconds: seconds[k], filled: filled[k], counts }))
 }

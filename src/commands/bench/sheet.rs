@@ -94,6 +94,22 @@ pub fn cpu_per_run(runs: u32, mut work: impl FnMut()) -> f64 {
     spent / f64::from(runs)
 }
 
+/// CPU seconds per run of each of `count` kinds of work: medians of `rounds` rounds, in each of which every kind in turn runs
+/// `runs` times, so that what disturbs the machine for a while disturbs all kinds alike.
+pub fn cpu_medians(count: usize, rounds: u32, runs: u32, mut work: impl FnMut(usize)) -> Vec<f64> {
+    let mut seconds = vec![Vec::new(); count];
+    for _ in 0..rounds.max(1) {
+        for (kind, list) in seconds.iter_mut().enumerate() {
+            list.push(cpu_per_run(runs, || work(kind)));
+        }
+    }
+    let median = |mut list: Vec<f64>| {
+        list.sort_by(f64::total_cmp);
+        list[list.len() / 2]
+    };
+    seconds.into_iter().map(median).collect()
+}
+
 /// User and system time of all threads so far, ended ones included, to the nanosecond; `None` where the system does not tell.
 pub fn process_seconds() -> Option<f64> {
     #[cfg(unix)]
