@@ -18,6 +18,7 @@ mod ribbons;
 pub mod shaders;
 pub mod targets;
 mod tessellation;
+mod wipe;
 
 pub use buffers::Uploaded;
 pub use context::Context;
@@ -36,7 +37,7 @@ pub enum GpuError {
         reason: String,
     },
     /// An array does not fit.
-    #[error("the scene's {what} take {bytes} bytes; this device can bind {limit}")]
+    #[error("the scene's {what} take {} MB at once; this device takes {}", bytes.div_ceil(1_000_000), limit / 1_000_000)]
     TooLarge {
         /// Which array.
         what: &'static str,

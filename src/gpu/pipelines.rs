@@ -233,6 +233,21 @@ pub(super) fn tessellation(device: &wgpu::Device) -> Pass {
     build(device, &Recipe::visibility("tessellation", shaders::TESSELLATION, &bindings))
 }
 
+/// The pipeline that puts kept pictures together.
+pub(super) fn wipe(device: &wgpu::Device) -> Pass {
+    let bindings = [
+        texture(wgpu::TextureSampleType::Uint),
+        texture(wgpu::TextureSampleType::Float { filterable: false }),
+        texture(wgpu::TextureSampleType::Depth),
+    ];
+    let recipe = Recipe {
+        also: Some(unblended(SUM_FORMAT)),
+        depth: Some((wgpu::CompareFunction::Always, true)),
+        ..Recipe::visibility("wipe", shaders::WIPE, &bindings)
+    };
+    build(device, &recipe)
+}
+
 fn build(device: &wgpu::Device, recipe: &Recipe) -> Pass {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(recipe.label),

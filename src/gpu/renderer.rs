@@ -12,6 +12,7 @@ use super::pipelines::{self, Pass, Pipelines, Shading};
 use super::ribbons::RibbonPass;
 use super::targets::{Sum, Targets};
 use super::tessellation::Tessellated;
+use super::wipe::Both;
 use crate::encoding::view::DepthRange;
 use crate::encoding::{DisplayMode, EdgeStyle, Look, PackedScene, Theme, View};
 use crate::kernel::view::Camera;
@@ -62,6 +63,8 @@ pub struct Renderer {
     pub(super) mesh: Option<MeshPass>,
     /// Triangles in place of faces.
     pub(super) tessellated: Tessellated,
+    /// Both pictures of a comparison with triangles, kept apart.
+    pub(super) both: Option<Both>,
     /// Made when fat lines are first drawn.
     pub(super) ribbons: Option<RibbonPass>,
     /// Whether the picture shown has its holes filled, and whether what was filled stands out.
@@ -102,6 +105,7 @@ impl Renderer {
             samples: 0,
             mesh: None,
             tessellated: Tessellated::default(),
+            both: None,
             ribbons: None,
             concealed: false,
             difference: false,
@@ -146,30 +150,55 @@ impl Renderer {
             self.present_group = None;
         }
         let first = first || resized;
+        let shading = self.prepare_shading(device, queue, mode, edges);
+        let bound = match self.resolve_group.take() {
+            Some(bound) => bound,
+            None => self.resolve_group_of(device, shading.0, self.shown()),
+        };
+        self.samples = if first { 1 } else { self.samples + 1 };
+        self.draw_shaded(encoder, shading, &bound, self.shown(), &self.sum, first);
+        self.resolve_group = Some(bound);
+    }
+
+    /// Makes the pipeline that shading takes and writes its uniform block: position of the one, offset of the other.
+    pub(super) fn prepare_shading(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        mode: DisplayMode,
+        edges: EdgeStyle,
+    ) -> (usize, u32) {
         let mut look = Look::new(&self.view, mode, edges, Theme::Transparent);
         look.difference = u32::from(self.difference);
         let slot = self.write_uniform(queue, bytemuck::bytes_of(&look));
-        let shading =
-            Shading { plain: look.mode == Look::SHADED && look.difference == 0, edges: edges.visible };
-        let kept = self.shading[shading.index()].take();
-        let resolve = kept.unwrap_or_else(|| pipelines::resolve(device, shading));
-        if self.resolve_group.is_none() {
-            self.resolve_group = Some(self.make_resolve_group(device, &resolve.layout));
-        }
+        let plain = look.mode == Look::SHADED && look.difference == 0;
+        let shading = Shading { plain, edges: edges.visible };
+        self.shading[shading.index()].get_or_insert_with(|| pipelines::resolve(device, shading));
+        (shading.index(), slot)
+    }
+
+    /// Shades `targets`, bound by `bound`, and adds them to `sum`; `first` starts it anew.
+    pub(super) fn draw_shaded(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        (shading, slot): (usize, u32),
+        bound: &wgpu::BindGroup,
+        targets: &Targets,
+        sum: &Sum,
+        first: bool,
+    ) {
+        let Some(resolve) = &self.shading[shading] else { return };
         let load = if first { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
-        self.samples = if first { 1 } else { self.samples + 1 };
         // Read only: the program reads the same texture.
         let depth = wgpu::RenderPassDepthStencilAttachment {
-            view: &self.shown().depth_view,
+            view: &targets.depth_view,
             depth_ops: None,
             stencil_ops: None,
         };
-        let mut pass = full_screen(encoder, "shade", &self.sum.view, load, Some(depth));
+        let mut pass = full_screen(encoder, "shade", &sum.view, load, Some(depth));
         pass.set_pipeline(&resolve.pipeline);
-        pass.set_bind_group(0, &self.resolve_group, &[slot]);
+        pass.set_bind_group(0, bound, &[slot]);
         pass.draw(0..3, 0..1);
-        drop(pass);
-        self.shading[shading.index()] = Some(resolve);
     }
 
     /// Puts the sum over the background into `target`. With `depth` the surfaces are depth tested and
@@ -244,15 +273,22 @@ impl Renderer {
         })
     }
 
-    fn make_resolve_group(&self, device: &wgpu::Device, layout: &wgpu::BindGroupLayout) -> wgpu::BindGroup {
+    /// Binds `targets` to be shaded; what is filled in them tells the difference to the last cast.
+    pub(super) fn resolve_group_of(
+        &self,
+        device: &wgpu::Device,
+        shading: usize,
+        targets: &Targets,
+    ) -> wgpu::BindGroup {
+        let resolve = self.shading[shading].as_ref().expect("invariant: made by prepare_shading");
         let resources = vec![
             self.uniform_binding(size_of::<Look>()),
-            wgpu::BindingResource::TextureView(&self.shown().visibility_view),
-            wgpu::BindingResource::TextureView(&self.shown().depth_view),
+            wgpu::BindingResource::TextureView(&targets.visibility_view),
+            wgpu::BindingResource::TextureView(&targets.depth_view),
             self.buffers.faces().as_entire_binding(),
             wgpu::BindingResource::TextureView(&self.targets.visibility_view),
         ];
-        group(device, "shade", layout, resources)
+        group(device, "shade", &resolve.layout, resources)
     }
 
     fn make_present_group(&self, device: &wgpu::Device) -> wgpu::BindGroup {

@@ -76,12 +76,16 @@ pub const RESOLVE: &str = pieces!(
 /// Puts the accumulated samples over the background.
 pub const PRESENT: &str = pieces!("layout/look.wgsl", "lib/shade.wgsl", "pass/present.wgsl");
 
+/// Puts two kept pictures together.
+pub const WIPE: &str = pieces!("pass/wipe.wgsl");
+
 /// Every module with its name, for validation.
-pub const MODULES: [(&str, &str); 6] = [
+pub const MODULES: [(&str, &str); 7] = [
     ("cast", CAST),
     ("mesh", MESH),
     ("tessellation", TESSELLATION),
     ("conceal", CONCEAL),
     ("resolve", RESOLVE),
     ("present", PRESENT),
+    ("wipe", WIPE),
 ];

@@ -18,6 +18,8 @@ pub(super) struct Tessellated {
     /// Share of the width of a picture from which on triangles are drawn; none: nowhere.
     from: Option<f32>,
     facets: bool,
+    /// Casts show the exact surfaces all over, triangles are drawn apart.
+    apart: bool,
 }
 
 /// Pipeline and buffers.
@@ -75,8 +77,18 @@ impl Tessellated {
         if self.facets { CAST_FACETS } else { 0 }
     }
 
+    /// Whether both the exact surfaces and triangles are seen.
+    pub fn is_wiped(&self) -> bool {
+        self.from.is_some_and(|from| from > 0.0)
+    }
+
     /// How many columns from the left show the exact surfaces.
     pub fn exact_columns(&self, width: u32) -> u32 {
+        if self.apart { width } else { self.divider(width) }
+    }
+
+    /// The column from which on triangles are shown.
+    pub fn divider(&self, width: u32) -> u32 {
         match self.from {
             Some(from) if self.pass.is_some() => ((from * width as f32).round() as u32).min(width),
             _ => width,
@@ -84,8 +96,16 @@ impl Tessellated {
     }
 
     /// Draws the triangles; `view_slot` is the offset of the view's uniform block.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass, view_slot: u32, [width, height]: [u32; 2]) {
-        let from = self.exact_columns(width);
+    pub fn draw(&self, pass: &mut wgpu::RenderPass, view_slot: u32, size: [u32; 2]) {
+        self.draw_from(pass, view_slot, size, self.exact_columns(size[0]));
+    }
+
+    /// The same all over the picture.
+    pub fn draw_all(&self, pass: &mut wgpu::RenderPass, view_slot: u32, size: [u32; 2]) {
+        self.draw_from(pass, view_slot, size, 0);
+    }
+
+    fn draw_from(&self, pass: &mut wgpu::RenderPass, view_slot: u32, [width, height]: [u32; 2], from: u32) {
         let Some(own) = self.pass.as_ref().filter(|own| own.corner_count > 0 && from < width) else { return };
         pass.set_scissor_rect(from, 0, width - from, height);
         pass.set_pipeline(&own.pass.pipeline);
@@ -117,6 +137,12 @@ impl Renderer {
     pub fn show_tessellation(&mut self, from: Option<f32>, facets: bool) {
         self.tessellated.from = from;
         self.tessellated.facets = facets && from.is_some();
+    }
+
+    /// Casts are of the exact surfaces all over, for [`Self::keep_both`], though triangles are shown somewhere. Counts from the
+    /// next cast on.
+    pub fn show_both(&mut self, apart: bool) {
+        self.tessellated.apart = apart && self.tessellated.from.is_some();
     }
 
     /// Makes the bind group that drawing uses.

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use hairline::encoding::tessellation::{LEVEL_OF_TOLERANCE, UNMEASURED};
 use hairline::encoding::{
-    DepthRange, DisplayMode, FaceShape, FaceSlot, PackedMesh, PackedScene, TessellationPart,
+    DepthRange, DisplayMode, EdgeStyle, FaceShape, FaceSlot, PackedMesh, PackedScene, TessellationPart,
     TessellationScene, View,
 };
 use hairline::gpu::{Context, Renderer, Sample, picture};
@@ -130,6 +130,38 @@ fn triangles_lie_within_their_error_of_the_exact_picture() {
             pixels().filter(|(x, y)| facets.at(*x, *y).words[3] != triangles.at(*x, *y).words[3]).count();
         assert!(other > seen / 10, "{other}");
     }
+}
+
+#[test]
+fn both_pictures_of_a_wipe_are_kept_while_its_divider_moves() {
+    let mut scene = scene(Projection::Perspective { fov_y: 0.7 }, false);
+    let (exact, triangles) = (scene.picture(None, false), scene.picture(Some(0.0), false));
+    let look = (DisplayMode::Shaded, EdgeStyle::default());
+    let Scene { context, renderer, sample, .. } = &mut scene;
+    let (device, queue) = (&context.device, &context.queue);
+    renderer.show_tessellation(Some(0.5), false);
+    renderer.show_both(true);
+    assert!(!renderer.has_both());
+    let mut encoder = device.create_command_encoder(&Default::default());
+    renderer.cast(device, queue, &mut encoder, sample);
+    renderer.keep_both(device, queue, &mut encoder, look, true);
+    queue.submit([encoder.finish()]);
+    assert!(renderer.has_both());
+    assert_eq!(renderer.samples(), 1);
+    for share in [0.5, 0.25, 0.9, 0.0, 1.0] {
+        renderer.show_tessellation(Some(share), false);
+        let mut encoder = device.create_command_encoder(&Default::default());
+        renderer.wipe(device, &mut encoder);
+        queue.submit([encoder.finish()]);
+        let wiped = picture::read_visibility(context, renderer).expect("a picture");
+        let divider = (share * SIZE[0] as f32).round() as i32;
+        for (x, y) in pixels() {
+            let expected = if x < divider { &exact } else { &triangles };
+            assert_eq!(wiped.at(x, y), expected.at(x, y), "{x} {y}, divider at {divider}");
+        }
+    }
+    renderer.forget_both();
+    assert!(!renderer.has_both());
 }
 
 #[test]

@@ -77,12 +77,25 @@ impl EditCost {
 
 /// Figures shared by the main and the render world.
 #[derive(Resource, Clone, Default)]
-pub struct RenderFigures(Arc<Mutex<Figures>>);
+pub struct RenderFigures {
+    figures: Arc<Mutex<Figures>>,
+    failure: Arc<Mutex<Option<String>>>,
+}
 
 impl RenderFigures {
     /// The figures, to read or write. Held for moments only.
     pub fn lock(&self) -> MutexGuard<'_, Figures> {
-        self.0.lock().unwrap_or_else(|e| e.into_inner())
+        self.figures.lock().unwrap_or_else(|e| e.into_inner())
+    }
+
+    /// Notes what keeps the model, or triangles of it, from being drawn.
+    pub fn fail(&self, text: String) {
+        *self.failure.lock().unwrap_or_else(|e| e.into_inner()) = Some(text);
+    }
+
+    /// The same, once.
+    pub fn take_failure(&self) -> Option<String> {
+        self.failure.lock().unwrap_or_else(|e| e.into_inner()).take()
     }
 }
 

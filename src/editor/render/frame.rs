@@ -9,6 +9,7 @@ use crate::editor::camera::ViewCamera;
 use crate::editor::camera::clip::ClipView;
 use crate::editor::derive::SceneBounds;
 use crate::editor::diagnostics::RenderFigures;
+use crate::editor::panels::Notices;
 use crate::editor::picking::Picker;
 use crate::editor::redraw::Waker;
 use crate::editor::settings::Settings;
@@ -124,4 +125,11 @@ pub(super) fn read_cast_time(
     let mut figures = figures.lock();
     time.scale = figures.resolution;
     figures.gpu_ms = whole.or(mesh).or(band).or(figures.gpu_ms);
+}
+
+/// Shows what cannot be drawn.
+pub(super) fn tell_failure(figures: Res<RenderFigures>, mut notices: ResMut<Notices>) {
+    if let Some(text) = figures.take_failure() {
+        notices.error(text);
+    }
 }

@@ -59,7 +59,8 @@ impl Plugin for RenderPlugin {
             .init_resource::<frame::CastTime>()
             .add_systems(
                 Update,
-                (pick::deliver, holes::prove, frame::read_cast_time).before(EditorSystems::Input),
+                (pick::deliver, holes::prove, frame::read_cast_time, frame::tell_failure)
+                    .before(EditorSystems::Input),
             );
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app

@@ -46,6 +46,8 @@ pub(super) struct ModelPass {
     ribbons: Option<u64>,
     /// Revision of the tessellation on the GPU.
     tessellation: Option<u64>,
+    /// Where the divider was.
+    divider: Option<f32>,
 }
 
 /// What decides which ray hits what.
@@ -59,8 +61,8 @@ struct CastKey {
     surfaces: Surfaces,
     /// Revision of the triangles, where they are what is shown at rest.
     triangles: Option<u64>,
-    /// Where triangles of the tessellation are in the place of faces, whether they are flat, and their revision.
-    tessellation: Option<(f32, bool, u64)>,
+    /// Of triangles of a tessellation in the place of faces: whether they are all over, whether they are flat, their revision.
+    tessellation: Option<(bool, bool, u64)>,
     /// Whether they carry their errors.
     error: bool,
 }
@@ -86,6 +88,7 @@ pub(super) fn create(
     commands.insert_resource(ModelPass {
         ribbons: None,
         tessellation: None,
+        divider: None,
         renderer: None,
         quality: Quality::careful(),
         cast: None,
@@ -142,11 +145,7 @@ pub(super) fn draw(
         match renderer.upload(device, &queue, &mut faces.packed) {
             Ok(uploaded) => figures.lock().edit.finish(started.elapsed(), uploaded.bytes),
             Err(error) => {
-                let text = error.to_string();
-                if pass.failure.as_ref() != Some(&text) {
-                    error!("the model cannot be drawn: {text}");
-                    pass.failure = Some(text);
-                }
+                fail(&mut pass.failure, &figures, &waker, format!("The model cannot be drawn: {error}"));
                 return;
             }
         }
@@ -159,7 +158,8 @@ pub(super) fn draw(
     };
     if pass.tessellation != Some(tessellation.revision) {
         if let Err(error) = renderer.upload_tessellation(device, &queue, &mut tessellation.scene) {
-            error!("the tessellation cannot be drawn: {error}");
+            let text = format!("The tessellation cannot be drawn: {error}");
+            fail(&mut pass.failure, &figures, &waker, text);
         }
         pass.tessellation = Some(tessellation.revision);
     }
@@ -197,7 +197,7 @@ pub(super) fn draw(
         untrimmed: mode == encoding::DisplayMode::Untrimmed,
         surfaces,
         triangles: (are_shown && !only_tessellated).then(|| triangles.scene.revision()),
-        tessellation: from.map(|from| (from, facets, tessellation.revision)),
+        tessellation: from.map(|from| (from == 0.0, facets, tessellation.revision)),
         error: tessellation.shows_error(),
     };
     // Triangles that share their vertices have no holes.
@@ -211,7 +211,23 @@ pub(super) fn draw(
         pass.ribbons = Some(fat_lines);
     }
     let now = pass.started.elapsed();
-    let (cast_changed, shade_changed) = (pass.cast != Some(cast), pass.shade != Some(shade));
+    let mut cast_changed = pass.cast != Some(cast);
+    let shade_changed = pass.shade != Some(shade);
+    let wiped = std::mem::replace(&mut pass.divider, from) != from;
+    if wiped && !cast_changed && renderer.has_both() {
+        // Nothing is refined while the divider moves.
+        pass.quality.hold(now);
+        renderer.wipe(device, ctx.command_encoder());
+        pass.casts += 1;
+    } else {
+        cast_changed |= wiped;
+    }
+    // At rest both pictures of a comparison are drawn whole.
+    let both = from.is_some_and(|from| from > 0.0) && !cast_changed;
+    renderer.show_both(both);
+    if !both {
+        renderer.forget_both();
+    }
     let (plan, next) = if faces.is_waiting() && !cast_changed && !shade_changed {
         // More is on its way: no use in refining what is there.
         (Plan::Keep, Next::Now)
@@ -244,7 +260,11 @@ pub(super) fn draw(
                 let difference = holes == Conceal::Difference;
                 renderer.conceal(device, &queue, ctx.command_encoder(), &spans, difference);
             }
-            renderer.shade(device, &queue, ctx.command_encoder(), mode, edges, true);
+            if both && renderer.has_both() {
+                renderer.shade_both(device, &queue, ctx.command_encoder(), (mode, edges), true);
+            } else {
+                renderer.shade(device, &queue, ctx.command_encoder(), mode, edges, true);
+            }
         }
         Plan::Cast { way, scale, sample, from, to } => {
             let scaled = (size.as_vec2() * scale).ceil().as_uvec2().max(UVec2::ONE);
@@ -265,7 +285,8 @@ pub(super) fn draw(
                     let (scene, lacking) = (&mut triangles.scene, lacking.as_deref().unwrap_or_default());
                     let sent = renderer.upload_meshes(device, &queue, scene, &faces.packed, lacking);
                     if let Err(error) = sent {
-                        error!("triangles cannot be drawn: {error}");
+                        let text = format!("Triangles cannot be drawn: {error}");
+                        fail(&mut pass.failure, &figures, &waker, text);
                     }
                     renderer.draw_meshes(device, &queue, ctx.command_encoder(), &rays);
                 }
@@ -276,7 +297,12 @@ pub(super) fn draw(
                     let difference = holes == Conceal::Difference;
                     renderer.conceal(device, &queue, ctx.command_encoder(), &spans, difference);
                 }
-                renderer.shade(device, &queue, ctx.command_encoder(), mode, edges_at(scale), sample == 0);
+                let (look, first) = ((mode, edges_at(scale)), sample == 0);
+                if both {
+                    renderer.keep_both(device, &queue, ctx.command_encoder(), look, first);
+                } else {
+                    renderer.shade(device, &queue, ctx.command_encoder(), look.0, look.1, first);
+                }
                 pass.casts += 1;
             }
         }
@@ -297,6 +323,16 @@ pub(super) fn draw(
         Next::Now => waker.wake(),
         Next::After(time) => waker.wake_after(time),
         Next::Never => {}
+    }
+}
+
+/// Says what cannot be drawn, once in a row.
+fn fail(last: &mut Option<String>, figures: &RenderFigures, waker: &Waker, text: String) {
+    if last.as_ref() != Some(&text) {
+        error!("{text}");
+        figures.fail(text.clone());
+        *last = Some(text);
+        waker.wake();
     }
 }
 

@@ -191,6 +191,11 @@ impl Quality {
         (plan, if self.full && self.samples >= SAMPLES { Next::Never } else { Next::Now })
     }
 
+    /// Something moves over the picture, which stays as it is: refining it waits.
+    pub fn hold(&mut self, now: Duration) {
+        self.changed_at = now;
+    }
+
     /// The next band of the sample under way at rest.
     fn cast_band(&mut self) -> Plan {
         if self.strips == 0.0 {
