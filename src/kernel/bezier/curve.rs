@@ -64,6 +64,7 @@ impl<V: Vector> BezierCurve<V> {
         match self.points.len() {
             0..=4 => self.point_sized::<4>(t),
             5..=8 => self.point_sized::<8>(t),
+            9..=20 => self.point_sized::<20>(t),
             _ => self.point_sized::<MAX_COUNT>(t),
         }
     }
@@ -73,6 +74,7 @@ impl<V: Vector> BezierCurve<V> {
         match self.points.len() {
             0..=4 => self.jet_sized::<4>(t),
             5..=8 => self.jet_sized::<8>(t),
+            9..=20 => self.jet_sized::<20>(t),
             _ => self.jet_sized::<MAX_COUNT>(t),
         }
     }
@@ -82,6 +84,7 @@ impl<V: Vector> BezierCurve<V> {
         match self.points.len() {
             0..=4 => self.tangent_sized::<4>(t),
             5..=8 => self.tangent_sized::<8>(t),
+            9..=20 => self.tangent_sized::<20>(t),
             _ => self.tangent_sized::<MAX_COUNT>(t),
         }
     }

@@ -8,7 +8,7 @@
 use glam::{DVec2, DVec3};
 
 use super::balance::balanced;
-use super::line_error::{farthest_point, line_error, point_error, within};
+use super::line_error::{farthest_point, line_error, part_within, point_error};
 use super::options::{CurveDivision, CurveError, TessellationOptions};
 use super::outline::Run;
 use crate::kernel::bezier::BezierCurve3;
@@ -279,11 +279,7 @@ pub(super) fn is_within_chord(run: &Run, (from, to): (f64, f64), [a, b]: [DVec3;
     (first..last).all(|k| {
         let curve = &run.pieces[k].space;
         let (low, high) = ((from - k as f64).max(0.0), (to - k as f64).min(1.0));
-        if low == 0.0 && high == 1.0 {
-            within(curve, a, b, tolerance)
-        } else {
-            within(&curve.restrict(low, high), a, b, tolerance)
-        }
+        part_within(curve, (low, high), (a, b), tolerance)
     })
 }
 

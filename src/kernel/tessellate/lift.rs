@@ -14,55 +14,66 @@ use crate::kernel::bezier::{BezierCurve2, BezierCurve3, BezierPatch};
 /// Highest degree that is composed exactly; beyond it binomials lose digits and splitting is dear.
 pub const HIGHEST_DEGREE: usize = 60;
 
-/// A polynomial in scaled Bernstein form: coefficient i times `C(degree, i)`.
-type Scaled<T> = Vec<T>;
+/// Polynomials of one degree in scaled Bernstein form (coefficient i times `C(degree, i)`), one after the other.
+struct Scaled {
+    coefficients: Vec<f64>,
+    /// Coefficients of each.
+    count: usize,
+}
 
-/// Products of scaled polynomials.
-fn product<T>(a: &[f64], b: &[T]) -> Scaled<T>
-where
-    T: Copy + Default + std::ops::Mul<f64, Output = T> + std::ops::AddAssign,
-{
-    let mut result = vec![T::default(); a.len() + b.len() - 1];
+impl Scaled {
+    fn each(&self) -> std::slice::ChunksExact<'_, f64> {
+        self.coefficients.chunks_exact(self.count)
+    }
+}
+
+/// Adds the product of two scaled polynomials to `result`.
+fn add_product(a: &[f64], b: &[f64], result: &mut [f64]) {
     for (i, x) in a.iter().enumerate() {
-        for (j, y) in b.iter().enumerate() {
-            result[i + j] += *y * *x;
+        for (sum, y) in result[i..].iter_mut().zip(b) {
+            *sum += x * y;
         }
     }
-    result
 }
 
 /// Bernstein basis of degree `n` along a curve: `C(n,k) A^k B^(n-k)`, each of degree `n` times that of A and B.
-fn basis_along(n: usize, a: &[f64], b: &[f64]) -> Vec<Scaled<f64>> {
-    let powers = |x: &[f64]| {
-        let mut powers = vec![vec![1.0]];
-        for k in 0..n {
-            powers.push(product(x, &powers[k]));
+fn basis_along(n: usize, a: &[f64], b: &[f64]) -> Scaled {
+    let degree = a.len() - 1;
+    let count = n * degree + 1;
+    // The k-th power has k times the degree, and starts after those before it.
+    let start = |k: usize| k + degree * (k * k.saturating_sub(1)) / 2;
+    let mut powers = vec![0.0; 2 * start(n + 1)];
+    let (of_a, of_b) = powers.split_at_mut(start(n + 1));
+    for (x, powers) in [(a, &mut *of_a), (b, &mut *of_b)] {
+        powers[0] = 1.0;
+        for k in 1..=n {
+            let (before, rest) = powers[start(k - 1)..].split_at_mut(start(k) - start(k - 1));
+            add_product(x, before, &mut rest[..k * degree + 1]);
         }
-        powers
-    };
-    let (a, b) = (powers(a), powers(b));
-    let scale = binomial_row(n);
-    (0..=n)
-        .map(|k| {
-            let mut value = product(&a[k], &b[n - k]);
-            value.iter_mut().for_each(|x| *x *= scale[k]);
-            value
-        })
-        .collect()
+    }
+    let mut coefficients = vec![0.0; (n + 1) * count];
+    for (k, (value, scale)) in coefficients.chunks_exact_mut(count).zip(binomial_row(n)).enumerate() {
+        let (x, y) = (&of_a[start(k)..start(k + 1)], &of_b[start(n - k)..start(n - k + 1)]);
+        add_product(x, y, value);
+        value.iter_mut().for_each(|x| *x *= scale);
+    }
+    Scaled { coefficients, count }
 }
 
 /// The basis along one coordinate: numbers where the coordinate is constant, polynomials else.
-fn along(degree: usize, coordinates: &[f64], weights: &[f64], scale: &[f64]) -> Vec<Scaled<f64>> {
-    let first = coordinates[0];
-    if coordinates.iter().all(|x| *x == first) {
+fn along(degree: usize, curve: &BezierCurve2, axis: usize, scale: &[f64]) -> Scaled {
+    let first = curve.points[0][axis];
+    if curve.points.iter().all(|p| p[axis] == first) {
         let mut values = [0.0; MAX_COUNT];
         bernstein::values(degree, first, &mut values);
-        return values[..=degree].iter().map(|b| vec![*b]).collect();
+        return Scaled { coefficients: values[..=degree].to_vec(), count: 1 };
     }
-    let a: Vec<f64> = coordinates.iter().zip(weights).zip(scale).map(|((x, w), s)| x * w * s).collect();
-    let b: Vec<f64> =
-        coordinates.iter().zip(weights).zip(scale).map(|((x, w), s)| (1.0 - x) * w * s).collect();
-    basis_along(degree, &a, &b)
+    let (mut a, mut b) = ([0.0; MAX_COUNT], [0.0; MAX_COUNT]);
+    for (k, ((p, w), s)) in curve.points.iter().zip(&curve.weights).zip(scale).enumerate() {
+        (a[k], b[k]) = (p[axis] * w * s, (1.0 - p[axis]) * w * s);
+    }
+    let count = curve.points.len();
+    basis_along(degree, &a[..count], &b[..count])
 }
 
 /// Degree of the image of `curve`, given in the patch's own parameters.
@@ -79,22 +90,22 @@ pub fn lift(curve: &BezierCurve2, patch: &BezierPatch) -> BezierCurve3 {
         return lifted;
     }
     let scale = binomial_row(curve.degree());
-    let (us, vs): (Vec<f64>, Vec<f64>) = curve.points.iter().map(|p| (p.x, p.y)).unzip();
-    let bu = along(patch.degree_u, &us, &curve.weights, scale);
-    let bv = along(patch.degree_v, &vs, &curve.weights, scale);
+    let bu = along(patch.degree_u, curve, 0, scale);
+    let bv = along(patch.degree_v, curve, 1, scale);
     // Points relative to the patch's middle lose fewer digits.
     let origin = patch.bounds().centre();
     let rows = patch.points.chunks(patch.degree_v + 1).zip(patch.weights.chunks(patch.degree_v + 1));
-    let mut sum = vec![DVec4::ZERO; bu[0].len() + bv[0].len() - 1];
-    for ((points, weights), u) in rows.zip(&bu) {
-        let mut row = vec![DVec4::ZERO; bv[0].len()];
-        for ((p, w), v) in points.iter().zip(weights).zip(&bv) {
+    let mut sum = vec![DVec4::ZERO; bu.count + bv.count - 1];
+    let mut row = vec![DVec4::ZERO; bv.count];
+    for ((points, weights), u) in rows.zip(bu.each()) {
+        row.fill(DVec4::ZERO);
+        for ((p, w), v) in points.iter().zip(weights).zip(bv.each()) {
             let h = ((*p - origin) * *w).extend(*w);
             row.iter_mut().zip(v).for_each(|(r, b)| *r += h * *b);
         }
         for (i, a) in u.iter().enumerate() {
-            for (j, b) in row.iter().enumerate() {
-                sum[i + j] += *b * *a;
+            for (sum, b) in sum[i..].iter_mut().zip(&row) {
+                *sum += *b * *a;
             }
         }
     }
@@ -160,19 +171,30 @@ fn iso_line(curve: &BezierCurve2, patch: &BezierPatch) -> Option<BezierCurve3> {
 
 /// Parts of this size of a curve's control polygon count as nothing when its degree is reduced.
 const LOSSLESS: f64 = 1e-13;
+/// A highest difference above this part of it is no rounding, up to a degree.
+const NO_DOUBT: f64 = 1e-2;
+const FEW: usize = 40;
 
 /// Lossless degree reduction (P2, section 4, after Farin 1996): from both ends, on homogeneous points; taken
 /// where both passes agree within rounding.
 pub fn reduced(mut curve: BezierCurve3) -> BezierCurve3 {
     while curve.degree() > 1 {
         let n = curve.degree();
-        let home: Vec<DVec4> = curve
-            .points
-            .iter()
-            .zip(&curve.weights)
-            .map(|(p, w)| ((*p - curve.points[0]) * *w).extend(*w))
-            .collect();
-        let size = home.iter().map(|h| h.length()).fold(0.0, f64::max);
+        let home = |i: usize| {
+            let w = curve.weights[i];
+            ((curve.points[i] - curve.points[0]) * w).extend(w)
+        };
+        // Both passes differ at their ends by the highest difference: mostly that says no.
+        let (mut size, mut highest) = (0.0f64, DVec4::ZERO);
+        for (i, binomial) in binomial_row(n).iter().enumerate() {
+            let h = home(i);
+            size = size.max(h.length());
+            highest += h * if i % 2 == 0 { *binomial } else { -binomial };
+        }
+        if n <= FEW && highest.abs().max_element() > NO_DOUBT * size {
+            break;
+        }
+        let home: Vec<DVec4> = (0..=n).map(home).collect();
         let mut left = vec![home[0]];
         for i in 1..n {
             left.push((home[i] * n as f64 - left[i - 1] * i as f64) / (n - i) as f64);

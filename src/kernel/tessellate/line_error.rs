@@ -5,9 +5,10 @@
 //! (P2 prints `1 - 2^(2 - n)`, which is zero for a parabola); for rational curves the end functions shrink by the ratio
 //! of the end weights to the largest. [`within`] sharpens the bound by halving until it decides.
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 
 use crate::kernel::bezier::BezierCurve3;
+use crate::kernel::bezier::bernstein::MAX_COUNT;
 
 /// Distance of `p` from the segment between `a` and `b`.
 pub fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
@@ -52,21 +53,75 @@ const DEPTH: u32 = 5;
 
 /// Whether all of `curve` provably lies within `tolerance` of the segment between `a` and `b`.
 pub fn within(curve: &BezierCurve3, a: DVec3, b: DVec3, tolerance: f64) -> bool {
-    fn halves(curve: &BezierCurve3, a: DVec3, b: DVec3, tolerance: f64, depth: u32) -> bool {
-        if curve.points.iter().all(|p| distance_to_segment(*p, a, b) <= tolerance) {
-            return true;
-        }
-        if depth == 0 || !(distance_to_segment(curve.point(0.5), a, b) <= tolerance) {
-            return false;
-        }
-        let (left, right) = curve.split(0.5);
-        halves(&left, a, b, tolerance, depth - 1) && halves(&right, a, b, tolerance, depth - 1)
-    }
-    let ends = [curve.start(), curve.end()];
-    if ends == [a, b] && line_error(curve) <= tolerance {
+    part_within(curve, (0.0, 1.0), (a, b), tolerance)
+}
+
+/// The same for the part of `curve` between two parameters.
+pub fn part_within(curve: &BezierCurve3, range: (f64, f64), chord: (DVec3, DVec3), tolerance: f64) -> bool {
+    let whole = range == (0.0, 1.0) && (curve.start(), curve.end()) == chord;
+    if whole && line_error(curve) <= tolerance {
         return true;
     }
-    ends.iter().all(|p| distance_to_segment(*p, a, b) <= tolerance) && halves(curve, a, b, tolerance, DEPTH)
+    match curve.points.len() {
+        0..=4 => Part::<4>::new(curve, range).within(chord, tolerance, DEPTH),
+        5..=8 => Part::<8>::new(curve, range).within(chord, tolerance, DEPTH),
+        9..=20 => Part::<20>::new(curve, range).within(chord, tolerance, DEPTH),
+        _ => Part::<MAX_COUNT>::new(curve, range).within(chord, tolerance, DEPTH),
+    }
+}
+
+/// Part of a curve: homogeneous control points.
+#[derive(Clone, Copy)]
+struct Part<const N: usize> {
+    points: [DVec4; N],
+    count: usize,
+}
+
+impl<const N: usize> Part<N> {
+    fn new(curve: &BezierCurve3, (from, to): (f64, f64)) -> Self {
+        let mut part = Self { points: [DVec4::ZERO; N], count: curve.points.len() };
+        for (home, (p, w)) in part.points.iter_mut().zip(curve.points.iter().zip(&curve.weights)) {
+            *home = (*p * *w).extend(*w);
+        }
+        if to < 1.0 {
+            part = part.split(to).0;
+        }
+        if from > 0.0 {
+            part = part.split(from / to).1;
+        }
+        part
+    }
+
+    fn split(mut self, t: f64) -> (Self, Self) {
+        let mut left = self;
+        let count = self.count;
+        for k in 1..count {
+            for i in 0..count - k {
+                self.points[i] = self.points[i] * (1.0 - t) + self.points[i + 1] * t;
+            }
+            left.points[k] = self.points[0];
+        }
+        (left, self)
+    }
+
+    fn within(&self, (a, b): (DVec3, DVec3), tolerance: f64, depth: u32) -> bool {
+        let near = |h: &DVec4| distance_to_segment(h.truncate() / h.w, a, b) <= tolerance;
+        let points = &self.points[..self.count];
+        let ends = [points[0], points[self.count - 1]];
+        if depth == DEPTH && !ends.iter().all(near) {
+            return false;
+        }
+        if points[1..self.count - 1].iter().all(near) {
+            return true;
+        }
+        if depth == 0 {
+            return false;
+        }
+        let (left, right) = self.split(0.5);
+        near(&right.points[0])
+            && left.within((a, b), tolerance, depth - 1)
+            && right.within((a, b), tolerance, depth - 1)
+    }
 }
 
 #[cfg(test)]

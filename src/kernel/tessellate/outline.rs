@@ -121,20 +121,30 @@ impl Run {
 
     /// Parameter of a point of the run near `p`, found from `guess` within `from..to` going downhill.
     pub fn project(&self, p: DVec3, guess: f64, (from, to): (f64, f64)) -> f64 {
+        /// Steps below this part of a piece are rounding.
+        const ROUNDING: f64 = 1e-12;
         let mut s = guess.clamp(from, to);
-        let mut best = self.point(s).distance_squared(p);
+        let mut here = self.tangent(s);
+        let mut best = here.0.distance_squared(p);
         for _ in 0..24 {
-            let Some(mut step) = self.downhill(s, p) else { break };
+            let mut step = self.downhill(s, here, p);
             let mut moved = false;
             for _ in 0..6 {
+                if !(step.abs() > ROUNDING) {
+                    break;
+                }
                 // Across a joint the speed may be another: steps end there.
                 let floor = (s.ceil() - 1.0).max(from);
                 let ceiling = (s.floor() + 1.0).min(to);
                 let next = (s + step).clamp(floor, ceiling);
-                let off = self.point(next).distance_squared(p);
-                if next != s && off < best {
+                if next == s {
+                    break;
+                }
+                let there = self.tangent(next);
+                let off = there.0.distance_squared(p);
+                if off < best {
                     moved = (next - s).abs() > 1e-14 * self.range();
-                    (s, best) = (next, off);
+                    (s, here, best) = (next, there, off);
                     break;
                 }
                 step *= 0.3;
@@ -146,20 +156,25 @@ impl Run {
         s
     }
 
-    /// The step from `s` that brings the run nearest to `p` as far as its tangent goes. Speeds differ on either side of a
-    /// joint, so each side is asked for itself.
-    fn downhill(&self, s: f64, p: DVec3) -> Option<f64> {
-        let step = |(piece, t): (&LiftedPiece, f64)| {
-            let (here, d) = tangent(&piece.space, t);
+    /// Point and derivative at `s`.
+    fn tangent(&self, s: f64) -> (DVec3, DVec3) {
+        let (piece, t) = self.at(s);
+        tangent(&piece.space, t)
+    }
+
+    /// The step from `s`, where the run has the point and derivative `here`, that brings it nearest to `p` as far as its tangent
+    /// goes. Speeds differ on either side of a joint, so each side is asked for itself.
+    fn downhill(&self, s: f64, here: (DVec3, DVec3), p: DVec3) -> f64 {
+        let step = |(point, d): (DVec3, DVec3)| {
             let squared = d.length_squared();
-            if squared > 0.0 { (p - here).dot(d) / squared } else { 0.0 }
+            if squared > 0.0 { (p - point).dot(d) / squared } else { 0.0 }
         };
-        let ahead = step(self.at(s));
+        let ahead = step(here);
         if ahead < 0.0 && s > 0.0 && s.fract() == 0.0 {
             let before = &self.pieces[(s as usize).min(self.pieces.len()) - 1];
-            return Some(step((before, 1.0))).filter(|x| *x < 0.0);
+            return step(tangent(&before.space, 1.0)).min(0.0);
         }
-        Some(ahead)
+        ahead
     }
 
     /// Parameter of the point nearest to `p` and its distance, where the run comes within `reach`: the best of several starts
@@ -239,12 +254,17 @@ fn end_or<V: crate::kernel::vector::Vector>(curve: &crate::kernel::bezier::Bezie
     }
 }
 
-/// Point and derivative of the curve at `t`.
+/// Point and derivative of the curve at `t`, exactly its end points at the ends.
 fn tangent(curve: &BezierCurve3, t: f64) -> (DVec3, DVec3) {
     if is_even_line(curve) {
         return (end_or(curve, t), curve.points[1] - curve.points[0]);
     }
-    curve.tangent(t)
+    let (point, d) = curve.tangent(t);
+    match t {
+        0.0 => (curve.start(), d),
+        1.0 => (curve.end(), d),
+        _ => (point, d),
+    }
 }
 
 /// Whether the curve is a line run through at even speed, as most of a machine part's are.
