@@ -58,6 +58,8 @@ impl Work<'_> {
 const ROUNDS: usize = 8;
 /// Rounds in which faces are meshed again for chords that cross or stand in the way.
 const MESH_ROUNDS: usize = 10;
+/// Steps that a seam's share of the tolerance is shortened by in one round at most.
+const MOST_STEPS: i32 = 3;
 /// More triangles than this part of the limit that are to be expected are too many.
 const SURELY: f64 = 1.25;
 /// Share of the tolerance within which outlines meet.
@@ -141,7 +143,7 @@ pub fn remesh_faces(
         if long.is_empty() {
             break;
         }
-        open = division.shorten(&long).into_iter().collect();
+        open = division.shorten(&long, 1).into_iter().collect();
         division.renew(&open, &mut boundaries);
     }
     (work.progress)(0.35);
@@ -163,6 +165,8 @@ pub fn remesh_faces(
     }
     let done = AtomicUsize::new(0);
     let triangles = AtomicUsize::new(0);
+    // Faces whose chords cannot be shortened any more.
+    let mut final_try = vec![false; faces.len()];
     for round in 0..=MESH_ROUNDS {
         let found: Vec<_> = meshes
             .par_iter()
@@ -175,10 +179,11 @@ pub fn remesh_faces(
                 if (work.cancelled)() {
                     return Some(Err(TessellateError::Cancelled));
                 }
-                let result = tessellator.mesh(&boundaries[face], &|| {
+                let draft = round < MESH_ROUNDS && !final_try[face];
+                let result = tessellator.attempt(&boundaries[face], draft, &|| {
                     (work.cancelled)() || triangles.load(Ordering::Relaxed) > options.triangle_limit
                 });
-                if let Ok((mesh, _)) = &result {
+                if let Ok((Some(mesh), _)) = &result {
                     triangles.fetch_add(mesh.triangles.len(), Ordering::Relaxed);
                 }
                 if round == 0 {
@@ -193,8 +198,10 @@ pub fn remesh_faces(
             match result {
                 None => {}
                 Some(Ok((mesh, chords))) => {
-                    long.extend(chords.into_iter().map(|chord| (face, chord)));
-                    meshes[face] = Some(Ok(mesh));
+                    if !final_try[face] {
+                        long.extend(chords.into_iter().map(|chord| (face, chord)));
+                    }
+                    meshes[face] = mesh.map(Ok);
                 }
                 Some(Err(TessellateError::Cancelled)) if (work.cancelled)() => {
                     return Err(TessellateError::Cancelled);
@@ -211,10 +218,17 @@ pub fn remesh_faces(
             return Err(TessellateError::TooManyTriangles { limit: options.triangle_limit });
         }
         triangles.store(count, Ordering::Relaxed);
-        if long.is_empty() || round == MESH_ROUNDS {
+        if long.is_empty() && meshes.iter().zip(&prepared).all(|(m, p)| m.is_some() || p.is_none())
+            || round == MESH_ROUNDS
+        {
             break;
         }
-        for face in division.shorten(&long) {
+        let shortened = division.shorten(&long, 1 + round as i32);
+        for (face, mesh) in meshes.iter().enumerate() {
+            final_try[face] |= mesh.is_none() && !shortened.contains(&face);
+        }
+        for face in shortened {
+            final_try[face] = false;
             boundaries[face] = division.boundary(face);
             if prepared[face].is_some() {
                 if let Some(Ok(mesh)) = &meshes[face] {
@@ -318,8 +332,8 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
         all.into_iter().flatten().collect()
     }
 
-    /// Shortens chords of seams; gives the faces at them.
-    fn shorten(&mut self, long: &[(usize, LongChord)]) -> BTreeSet<usize> {
+    /// Shortens chords of seams, those of a whole seam by so many steps; gives the faces at them.
+    fn shorten(&mut self, long: &[(usize, LongChord)], steps: i32) -> BTreeSet<usize> {
         let mut wanted: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
         let mut crossed: BTreeSet<usize> = BTreeSet::new();
         for (face, chord) in long {
@@ -362,7 +376,8 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
                 self.samples[seam] =
                     self.seams.divide(seam, self.faces, self.parts[seam], true, self.gaps[seam]);
             } else if is_common(chords.len(), self.samples[seam].len().saturating_sub(1)) {
-                self.parts[seam] *= if crossed.contains(&seam) { CROSSED_STEP } else { STEP };
+                let again = STEP.powi(steps.min(MOST_STEPS));
+                self.parts[seam] *= if crossed.contains(&seam) { CROSSED_STEP.min(again) } else { again };
                 self.samples[seam] =
                     self.seams.divide(seam, self.faces, self.parts[seam], plain, self.gaps[seam]);
             } else if let Some((_, run)) = run_of(self.faces, &first.address) {

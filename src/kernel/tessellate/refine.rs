@@ -51,6 +51,8 @@ pub struct Refined {
     pub over: usize,
     /// Chords of the boundary that kept them there.
     pub stubborn: BTreeSet<Chord>,
+    /// Whether it was given up for them.
+    pub unfinished: bool,
 }
 
 impl Refined {
@@ -114,7 +116,8 @@ const LEAST: f64 = 0.5;
 const SHORTEST: f64 = 1e-7;
 
 impl Refinement<'_> {
-    /// Divides triangles of `region` until all limits hold.
+    /// Divides triangles of `region` until all limits hold. A `draft` is given up before bounds are asked for where chords of
+    /// the boundary are in the way.
     ///
     /// # Errors
     /// Too many triangles, or called off.
@@ -122,6 +125,7 @@ impl Refinement<'_> {
         &self,
         region: &mut Region,
         vertices: &mut Vertices,
+        draft: bool,
         cancelled: &dyn Fn() -> bool,
     ) -> Result<Refined, TessellateError> {
         let mut refined = Refined::default();
@@ -131,6 +135,10 @@ impl Refinement<'_> {
         for prove in passes {
             (refined.error, refined.over) = (0.0, 0);
             self.pass(region, vertices, &mut refined, *prove, cancelled)?;
+            if draft && !refined.stubborn.is_empty() {
+                refined.unfinished = true;
+                break;
+            }
         }
         Ok(refined)
     }

@@ -182,6 +182,20 @@ impl<'a> Tessellator<'a> {
         boundary: &Boundary,
         cancelled: &dyn Fn() -> bool,
     ) -> Result<(FaceMesh, Vec<LongChord>), TessellateError> {
+        let (mesh, long) = self.attempt(boundary, false, cancelled)?;
+        Ok((mesh.unwrap_or_default(), long))
+    }
+
+    /// The same; of a `draft` there is no mesh where chords are found to be too long on the way, which saves what comes after.
+    ///
+    /// # Errors
+    /// See [`TessellateError`].
+    pub fn attempt(
+        &self,
+        boundary: &Boundary,
+        draft: bool,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Result<(Option<FaceMesh>, Vec<LongChord>), TessellateError> {
         let flatness = self.flatness.as_ref();
         let scale = self.scale;
         let refinement = Refinement {
@@ -239,17 +253,23 @@ impl<'a> Tessellator<'a> {
                 long.extend(owners.get(&chord).map(|c| LongChord { crossed: true, ..*c }));
             }
         }
+        if draft && !long.is_empty() {
+            return Ok((None, sorted(long)));
+        }
         for place in &crossings.places {
             self.add_crossing(*place, &refinement, &mut vertices);
         }
         vertices.fixed = vertices.uvs.len();
         if !(self.plane.is_some() && self.options.max_edge.is_none()) {
             self.sow(&refinement, &mut region, &mut vertices)?;
-            let refined = refinement.run(&mut region, &mut vertices, cancelled)?;
+            let refined = refinement.run(&mut region, &mut vertices, draft, cancelled)?;
             quality.error = refined.error;
             quality.over_tolerance = refined.over;
             for chord in refined.stubborn {
                 long.extend(owners.get(&chord).or_else(|| owners.get(&[chord[1], chord[0]])));
+            }
+            if refined.unfinished && !long.is_empty() {
+                return Ok((None, sorted(long)));
             }
         } else {
             quality.error = FLAT * self.tolerance + quality.gap;
@@ -271,9 +291,7 @@ impl<'a> Tessellator<'a> {
         if mesh.triangles.len() > self.options.triangle_limit {
             return Err(TessellateError::TooManyTriangles { limit: self.options.triangle_limit });
         }
-        long.sort_unstable();
-        long.dedup();
-        Ok((mesh, long))
+        Ok((Some(mesh), sorted(long)))
     }
 
     /// Chords whose straight line in parameters leaves the chord by more than the tolerance.
@@ -429,6 +447,13 @@ impl<'a> Tessellator<'a> {
 /// themselves hundreds of times: that is the face's misfortune, not the program's.
 fn triangulated(places: &[DVec2], loops: &[Vec<u32>]) -> Result<(Region, Crossings), TessellateError> {
     std::panic::catch_unwind(|| Region::new(places, loops)).map_err(|_| TessellateError::Tangled)
+}
+
+/// In order, each once.
+fn sorted(mut chords: Vec<LongChord>) -> Vec<LongChord> {
+    chords.sort_unstable();
+    chords.dedup();
+    chords
 }
 
 /// The rectangle around places.
