@@ -14,7 +14,6 @@ use super::creases::{Crease, creases};
 use super::nets::{Height, Nets};
 use super::outline::Ground;
 use crate::kernel::bezier::BezierPatch;
-use crate::kernel::query::Sheet;
 
 /// A plane: a point of it and the unit normal.
 pub type Supporting = (DVec3, DVec3);
@@ -34,28 +33,33 @@ impl Curvature {
         for net in &all.nets[first..] {
             let [m, n] = net.degrees;
             let values = &all.values[net.first..net.first + (m + 1) * (n + 1)];
-            let at = |i: usize, j: usize| values[i * (n + 1) + j].heights().as_ref()[which];
+            let of = |value: &V| value.heights().as_ref()[which];
             for value in values {
-                result.hull = result.hull.max(value.heights().as_ref()[which].abs() / value.weight());
+                let hull = of(value).abs() / value.weight();
+                result.hull = if hull > result.hull { hull } else { result.hull };
             }
             let (mf, nf) = (m as f64, n as f64);
             let size = net.high - net.low;
             let unit = size * size;
             let mut ranges = [(f64::INFINITY, f64::NEG_INFINITY); 3];
-            let mut note = |k: usize, x: f64| ranges[k] = (x.min(ranges[k].0), x.max(ranges[k].1));
-            for i in 0..(m + 1).saturating_sub(2) {
-                for j in 0..=n {
-                    note(0, at(i + 2, j) - 2.0 * at(i + 1, j) + at(i, j));
+            let note = |range: &mut (f64, f64), x: f64| {
+                range.0 = if x < range.0 { x } else { range.0 };
+                range.1 = if x > range.1 { x } else { range.1 };
+            };
+            let rows = values.chunks_exact(n + 1);
+            for ((a, b), c) in rows.clone().zip(rows.clone().skip(1)).zip(rows.clone().skip(2)) {
+                for ((a, b), c) in a.iter().zip(b).zip(c) {
+                    note(&mut ranges[0], of(c) - 2.0 * of(b) + of(a));
                 }
             }
-            for i in 0..m {
-                for j in 0..n {
-                    note(1, at(i + 1, j + 1) - at(i + 1, j) - at(i, j + 1) + at(i, j));
+            for (a, b) in rows.clone().zip(rows.clone().skip(1)) {
+                for (a, b) in a.windows(2).zip(b.windows(2)) {
+                    note(&mut ranges[1], of(&b[1]) - of(&b[0]) - of(&a[1]) + of(&a[0]));
                 }
             }
-            for i in 0..=m {
-                for j in 0..(n + 1).saturating_sub(2) {
-                    note(2, at(i, j + 2) - 2.0 * at(i, j + 1) + at(i, j));
+            for row in rows {
+                for w in row.windows(3) {
+                    note(&mut ranges[2], of(&w[2]) - 2.0 * of(&w[1]) + of(&w[0]));
                 }
             }
             // Across a box of no width nothing is gone along.
@@ -88,9 +92,10 @@ impl Curvature {
 
 /// Bounds for the triangles of one face.
 pub struct Flatness<'a> {
-    sheet: Sheet<'a>,
     ground: Ground<'a>,
     creases: Vec<Crease>,
+    /// Whether weights differ anywhere.
+    rational: bool,
     origin: DVec3,
     domain: (DVec2, DVec2),
 }
@@ -106,7 +111,9 @@ impl<'a> Flatness<'a> {
         let around = |(low, high): (DVec2, DVec2), p: &BezierPatch| (low.min(p.uv_min), high.max(p.uv_max));
         let domain = all.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around);
         let origin = all.first().map_or(DVec3::ZERO, |p| p.bounds().centre());
-        Self { sheet: ground.sheet.clone(), ground: ground.clone(), creases: creases(ground), origin, domain }
+        let weight = all.first().map_or(1.0, |p| p.weights[0]);
+        let rational = all.iter().any(|p| p.weights.iter().any(|w| *w != weight));
+        Self { ground: ground.clone(), creases: creases(ground), rational, origin, domain }
     }
 
     /// Bound of the distance of the surface over a triangle of native `uv` from a plane. Stops as
@@ -114,21 +121,29 @@ impl<'a> Flatness<'a> {
     pub fn triangle(&self, uv: [DVec2; 3], plane: Supporting, limit: f64) -> f64 {
         let (low, high) = self.boxed(&uv);
         let foot = plane.0 - self.origin;
-        let height = |p: DVec3, w: f64| DVec2::new(plane.1.dot(p - foot) * w, w);
-        let mut nets = self.nets(low, high, height);
-        let heights = uv.map(|uv| nets.at(0, uv).x);
+        if self.rational {
+            let height = |p: DVec3, w: f64| DVec2::new(plane.1.dot(p - foot) * w, w);
+            self.over(uv, self.nets(low, high, height), limit)
+        } else {
+            self.over(uv, self.nets(low, high, |p: DVec3, _| plane.1.dot(p - foot)), limit)
+        }
+    }
+
+    /// The bound for a triangle whose box has the `nets`.
+    fn over<V: Height>(&self, uv: [DVec2; 3], mut nets: Nets<V>, limit: f64) -> f64 {
+        let heights = uv.map(|uv| first_of(nets.at(0, uv)));
         self.part(uv, heights, limit, DEPTH, &mut nets, 0)
     }
 
     /// The bound for a part of the triangle whose nets stand from number `first` on in `nets`; `heights` of its corners are
     /// those of the numerator.
-    fn part(
+    fn part<V: Height>(
         &self,
         uv: [DVec2; 3],
         heights: [f64; 3],
         limit: f64,
         depth: u32,
-        nets: &mut Nets<DVec2>,
+        nets: &mut Nets<V>,
         first: usize,
     ) -> f64 {
         let (low, high) = self.boxed(&uv);
@@ -143,11 +158,11 @@ impl<'a> Flatness<'a> {
         }
         let middles = [0, 1, 2].map(|k| 0.5 * (uv[k] + uv[(k + 1) % 3]));
         let at = middles.map(|m| nets.at(first, m));
-        let most = at.iter().fold(0.0f64, |m, h| m.max((h.x / h.y).abs()));
+        let most = at.iter().fold(0.0f64, |m, h| m.max((first_of(*h) / h.weight()).abs()));
         if !(most <= limit) {
             return most.min(bound);
         }
-        let off = at.map(|h| h.x);
+        let off = at.map(first_of);
         let parts = [
             ([uv[0], middles[0], middles[2]], [heights[0], off[0], off[2]]),
             ([middles[0], uv[1], middles[1]], [off[0], heights[1], off[1]]),
@@ -244,11 +259,12 @@ impl<'a> Flatness<'a> {
             let end = lines.partition_point(|x| *x < to).min(cells).max(first + 1);
             first..end
         };
-        let (us, vs) = (self.sheet.u_lines(), self.sheet.v_lines());
+        let sheet = &self.ground.sheet;
+        let (us, vs) = (sheet.u_lines(), sheet.v_lines());
         let mut nets = Nets { nets: Vec::with_capacity(8), values: Vec::with_capacity(96) };
         for i in range(us, low.x, high.x) {
             for j in range(vs, low.y, high.y) {
-                let Some(patch) = self.sheet.cell(i, j) else { continue };
+                let Some(patch) = sheet.cell(i, j) else { continue };
                 let from = low.max(DVec2::new(us[i], vs[j]));
                 let to = high.min(DVec2::new(us[i + 1], vs[j + 1])).max(from);
                 let first = nets.values.len();
@@ -306,6 +322,11 @@ impl<'a> Flatness<'a> {
         }
         best.map(|b| b.1)
     }
+}
+
+/// The first of the functions, times its weight.
+fn first_of<V: Height>(value: V) -> f64 {
+    value.heights().as_ref()[0]
 }
 
 /// The distance that follows from a bound of which `feedback` times the distance itself is a part.

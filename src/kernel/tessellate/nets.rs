@@ -18,6 +18,15 @@ pub(super) trait Height: Copy + Add<Output = Self> + Mul<f64, Output = Self> {
     fn weight(self) -> f64;
 }
 
+impl Height for f64 {
+    fn heights(self) -> impl AsRef<[f64]> {
+        [self]
+    }
+    fn weight(self) -> f64 {
+        1.0
+    }
+}
+
 impl Height for DVec2 {
     fn heights(self) -> impl AsRef<[f64]> {
         [self.x]
@@ -62,19 +71,15 @@ impl<V: Height> Nets<V> {
         (low, high): (DVec2, DVec2),
     ) {
         let [m, n] = degrees;
-        let values = &mut self.values[first..];
+        let values = &mut self.values[first..first + (m + 1) * (n + 1)];
         let size = to - from;
         let a = ((low - from) / size).clamp(DVec2::ZERO, DVec2::ONE);
         let b = ((high - from) / size).clamp(a, DVec2::ONE);
         if a.y > 0.0 || b.y < 1.0 {
-            for row in 0..=m {
-                cut(values, row * (n + 1), 1, n + 1, (a.y, b.y));
-            }
+            values.chunks_exact_mut(n + 1).for_each(|row| cut_row(row, (a.y, b.y)));
         }
         if a.x > 0.0 || b.x < 1.0 {
-            for column in 0..=n {
-                cut(values, column, n + 1, m + 1, (a.x, b.x));
-            }
+            cut_rows(values, n + 1, (a.x, b.x));
         }
         self.nets.push(Net { degrees, first, low, high });
     }
@@ -138,21 +143,53 @@ impl<V: Height> Nets<V> {
     }
 }
 
-/// Coefficients of the part `from..to` of a curve whose coefficients stand `stride` apart.
-fn cut<V: Height>(values: &mut [V], start: usize, stride: usize, count: usize, (from, to): (f64, f64)) {
-    let at = |i: usize| start + i * stride;
+/// Coefficients of the part `from..to` of a curve whose coefficients stand in a row.
+fn cut_row<V: Height>(row: &mut [V], (from, to): (f64, f64)) {
+    let count = row.len();
     if to < 1.0 {
         for r in 1..count {
-            for i in (r..count).rev() {
-                values[at(i)] = values[at(i - 1)] * (1.0 - to) + values[at(i)] * to;
+            let mut before = row[r - 1];
+            for value in &mut row[r..] {
+                let here = *value;
+                *value = before * (1.0 - to) + here * to;
+                before = here;
             }
         }
     }
     if from > 0.0 && to > 0.0 {
         let t = from / to;
         for r in 1..count {
+            let mut after = row[count - r];
+            for value in row[..count - r].iter_mut().rev() {
+                let here = *value;
+                *value = here * (1.0 - t) + after * t;
+                after = here;
+            }
+        }
+    }
+}
+
+/// The same for curves side by side: rows of `width` coefficients, one of each.
+fn cut_rows<V: Height>(values: &mut [V], width: usize, (from, to): (f64, f64)) {
+    let count = values.len() / width;
+    let mut mix = |low: usize, target: usize, t: f64| {
+        let (a, b) = values[low * width..(low + 2) * width].split_at_mut(width);
+        for (a, b) in a.iter_mut().zip(b) {
+            let mixed = *a * (1.0 - t) + *b * t;
+            *(if target == low { a } else { b }) = mixed;
+        }
+    };
+    if to < 1.0 {
+        for r in 1..count {
+            for i in (r..count).rev() {
+                mix(i - 1, i, to);
+            }
+        }
+    }
+    if from > 0.0 && to > 0.0 {
+        for r in 1..count {
             for i in 0..count - r {
-                values[at(i)] = values[at(i)] * (1.0 - t) + values[at(i + 1)] * t;
+                mix(i, i, from / to);
             }
         }
     }
