@@ -98,6 +98,17 @@ pub fn remesh_faces(
     changed: &(dyn Fn(usize) -> bool + Sync),
     work: &Work,
 ) -> Result<ModelMesh, TessellateError> {
+    // All of it on threads of the pool: else each step would wake them and wait.
+    rayon::scope(|_| remesh(faces, options, previous, changed, work))
+}
+
+fn remesh(
+    faces: &[Option<&Face>],
+    options: &TessellationOptions,
+    previous: &ModelMesh,
+    changed: &(dyn Fn(usize) -> bool + Sync),
+    work: &Work,
+) -> Result<ModelMesh, TessellateError> {
     options.check()?;
     // Loops that share edges with others keep their curves' ends.
     let options = &TessellationOptions { simplify: false, ..options.clone() };

@@ -86,6 +86,10 @@ const LAST_TWO: f64 = 5.0;
 const FAR: f64 = 0.05;
 /// Vertices are put between the stretches where these are farther apart than this part of the tolerance.
 const MIDDLE: f64 = 0.005;
+/// Feet within this part of the tolerance are not looked for any nearer.
+const NO_GAP: f64 = 5e-4;
+/// Runs of so many pieces at most are compared at fewer places first.
+const FEW_PIECES: usize = 4;
 /// Places between the ends at which stretches of a seam are compared.
 const GAP_SAMPLES: usize = 23;
 
@@ -248,7 +252,7 @@ impl Seams {
         let mut gap = 0.0f64;
         for (number, which) in stretches.iter().enumerate() {
             let stretch = &self.stretches[*which];
-            let Some((_, run)) = run_of(faces, &stretch.address) else { continue };
+            let Some((face, run)) = run_of(faces, &stretch.address) else { continue };
             let (from, to) = stretch.range;
             for (s, end) in [(from, stretch.ends[0]), (to, stretch.ends[1])] {
                 gap = gap.max(run.point(s).distance(self.vertices[end]));
@@ -257,13 +261,21 @@ impl Seams {
             let Some((_, first)) = run_of(faces, &owner.address).filter(|_| number > 0) else { continue };
             let line = |run: &Run| run.pieces.len() == 1 && run.pieces[0].space.degree() == 1;
             let places = if line(run) && line(first) { 1 } else { GAP_SAMPLES };
-            for k in 1..=places {
+            let nothing = NO_GAP * face.tolerance();
+            let off = |k: usize| {
                 let share = k as f64 / (places + 1) as f64;
                 let point = first.point(owner.range.0 + (owner.range.1 - owner.range.0) * share);
-                let off = run.point(stretch.foot(run, point, share, 2.0 * gap)).distance(point);
+                let off = run.point(stretch.foot(run, point, share, nothing.max(2.0 * gap))).distance(point);
                 // Vertices are put in the middle.
-                gap = gap.max(0.5 * off);
+                0.5 * off
+            };
+            // Few pieces that are one at a third of the places are one between them.
+            let few = places > 1 && run.pieces.len().max(first.pieces.len()) <= FEW_PIECES;
+            if few && (1..=places).skip(1).step_by(3).all(|k| off(k) <= nothing) {
+                continue;
             }
+            let found = (1..=places).map(off).fold(0.0, f64::max);
+            gap = gap.max(found);
         }
         gap
     }

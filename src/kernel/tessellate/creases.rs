@@ -1,5 +1,7 @@
 //! Lines between the patches of a face across which the surface is not smooth.
 
+use glam::DVec4;
+
 use crate::kernel::bezier::BezierPatch;
 
 use super::outline::Ground;
@@ -28,15 +30,42 @@ pub(super) fn creases(ground: &Ground) -> Vec<Crease> {
             let Some(here) = ground.sheet.cell(i, j) else { continue };
             let right = (i + 2 < us.len()).then(|| ground.sheet.cell(i + 1, j)).flatten();
             let above = (j + 2 < vs.len()).then(|| ground.sheet.cell(i, j + 1)).flatten();
-            if let Some(right) = right {
+            if let Some(right) = right.filter(|right| !runs_on(0, here, right)) {
                 creases.extend(crease(0, here, right));
             }
-            if let Some(above) = above {
+            if let Some(above) = above.filter(|above| !runs_on(1, here, above)) {
                 creases.extend(crease(1, &here.swap(), &above.swap()));
             }
         }
     }
     creases
+}
+
+/// Whether points times weights, and weights, are smooth where `b` follows `a` along an axis, as they are at simple knots: then
+/// so is the surface.
+fn runs_on(axis: usize, a: &BezierPatch, b: &BezierPatch) -> bool {
+    if [a.degree_u, a.degree_v] != [b.degree_u, b.degree_v] {
+        return false;
+    }
+    let (m, n) = (a.degree_u, a.degree_v);
+    // The last two control points of `a` along the axis and the first two of `b`, for line `k` of them.
+    let (step, lines, last) = if axis == 0 { (n + 1, n + 1, m) } else { (1, m + 1, n) };
+    let start = |k: usize| if axis == 0 { k } else { k * (n + 1) };
+    let home = |p: &BezierPatch, at: usize| {
+        let w = p.weights[at];
+        ((p.points[at] - a.points[0]) * w).extend(w)
+    };
+    let [wa, wb] = [a, b].map(|p| p.uv_max[axis] - p.uv_min[axis]);
+    let (mut jump, mut speed) = (DVec4::ZERO, DVec4::ZERO);
+    for k in 0..lines {
+        let end = start(k) + last * step;
+        let before = (home(a, end) - home(a, end - step)) / wa;
+        let after = (home(b, start(k) + step) - home(b, start(k))) / wb;
+        jump = jump.max((before - after).abs());
+        speed = speed.max(before.abs());
+    }
+    let along = SMOOTH * speed.truncate().max_element();
+    jump.truncate().max_element() <= along && jump.w <= SMOOTH * speed.w
 }
 
 /// The line where `b` follows `a` in u.

@@ -23,7 +23,10 @@ pub(super) fn decimate(
     refinement: &Refinement,
     cancelled: &dyn Fn() -> bool,
 ) {
-    let mut around: Vec<Vec<u32>> = vec![Vec::new(); vertices.uvs.len()];
+    if vertices.fixed == vertices.uvs.len() {
+        return;
+    }
+    let mut around: Vec<Vec<u32>> = (0..vertices.uvs.len()).map(|_| Vec::with_capacity(8)).collect();
     for (k, t) in triangles.iter().enumerate() {
         t.iter().for_each(|v| around[*v as usize].push(k as u32));
     }

@@ -50,7 +50,7 @@ impl Refinement<'_> {
         if self.plane.is_some() {
             return Found::default();
         }
-        let estimate = self.estimate(vertices, triangle, allowed);
+        let estimate = self.estimate(vertices, triangle, allowed, false);
         if !prove && estimate.error <= allowed {
             return Found { error: estimate.error, shares: estimate.shares, ..Found::default() };
         }
@@ -60,8 +60,15 @@ impl Refinement<'_> {
     /// Error of a triangle at the middles of its edges and in its own.
     ///
     /// What counts is the distance from the triangle's plane. Where the image of an edge leaves the triangle sideways its
-    /// neighbour lies under it, in a plane turned by about the turn of the normal within the triangle.
-    pub(super) fn estimate(&self, vertices: &Vertices, triangle: [u32; 3], allowed: f64) -> Estimate {
+    /// neighbour lies under it, in a plane turned by about the turn of the normal within the triangle. If `only_whether` it is
+    /// within what is allowed matters, the first point that is not ends it.
+    pub(super) fn estimate(
+        &self,
+        vertices: &Vertices,
+        triangle: [u32; 3],
+        allowed: f64,
+        only_whether: bool,
+    ) -> Estimate {
         let p = triangle.map(|n| vertices.upright[n as usize]);
         let normals = triangle.map(|n| vertices.normals[n as usize]);
         let edges = [0, 1, 2].map(|k| p[(k + 1) % 3] - p[k]);
@@ -73,6 +80,15 @@ impl Refinement<'_> {
         } else {
             (normals[0] + normals[1] + normals[2]).normalize_or_zero()
         };
+        let corners = [0, 1, 2].map(|k| (vertices.on_surface[triangle[k] as usize] - p[k]).dot(normal));
+        let mut middles = [DVec3::ZERO; 3];
+        for k in 0..3 {
+            middles[k] = self.middle(vertices, triangle[k], triangle[(k + 1) % 3]) - p[k];
+            let off = middles[k].dot(normal).abs().max(corners[k].abs());
+            if only_whether && !(off <= allowed) {
+                return Estimate { error: off, ..Estimate::default() };
+            }
+        }
         // The sine of the largest turn, 1 beyond a right angle.
         let sine = |n: DVec3| if n.dot(normal) > 0.0 { n.cross(normal).length() } else { 1.0 };
         let turn = if solid { normals.map(sine).into_iter().fold(0.0, f64::max) } else { 0.0 };
@@ -80,7 +96,7 @@ impl Refinement<'_> {
         let mut asides = [0.0; 3];
         let mut worst = 0.0f64;
         let shares = [0, 1, 2].map(|k| {
-            let d = self.middle(vertices, triangle[k], triangle[(k + 1) % 3]) - p[k];
+            let d = middles[k];
             let height = d.dot(normal);
             let up = height.abs();
             worst = if up > worst.abs() { height } else { worst };
@@ -95,7 +111,6 @@ impl Refinement<'_> {
         let uv = triangle.map(|n| vertices.uvs[n as usize]);
         let middle = (self.ground.point((uv[0] + uv[1] + uv[2]) / 3.0) - p[0]).dot(normal);
         worst = if middle.abs() > worst.abs() { middle } else { worst };
-        let corners = [0, 1, 2].map(|k| (vertices.on_surface[triangle[k] as usize] - p[k]).dot(normal));
         let error = corners.into_iter().map(f64::abs).fold(worst.abs(), f64::max) + sideways;
         let high = worst.abs() > TOO_HIGH * allowed && error > allowed;
         let excess = worst.abs() - LOWERED * allowed;

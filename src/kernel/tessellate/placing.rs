@@ -12,7 +12,7 @@ use super::balance::{Bend, OF_DISTANCE};
 use super::chords::EdgeSample;
 use super::refine::Refinement;
 use super::triangulate::Region;
-use super::untrimmed::normal;
+use super::untrimmed::{normal, upright};
 
 /// Vertices of a mesh in the making.
 #[derive(Debug, Clone, Default)]
@@ -96,16 +96,20 @@ impl Refinement<'_> {
 
     /// Adds a vertex on the surface.
     pub fn add(&self, vertices: &mut Vertices, uv: DVec2) {
-        let p = self.ground.point(uv);
+        let (p, normal) = match self.plane {
+            Some(plane) => (self.ground.point(uv), plane.normal()),
+            None => {
+                let at = self.ground.tangents(uv);
+                let inward = || normal(self.ground, uv, &self.domain, 1e-6 * self.domain.size());
+                (at.point, upright(&at).unwrap_or_else(inward))
+            }
+        };
         vertices.gaps.push(0.0);
         vertices.uvs.push(uv);
         vertices.on_surface.push(p);
         vertices.positions.push(p);
         vertices.upright.push(p);
-        vertices.normals.push(match self.plane {
-            Some(plane) => plane.normal(),
-            None => normal(self.ground, uv, &self.domain, 1e-6 * self.domain.size()),
-        });
+        vertices.normals.push(normal);
     }
 
     /// Adds a vertex of the boundary.

@@ -408,7 +408,7 @@ impl Refinement<'_> {
         let mut count = 0;
         for (estimate, t) in estimates.iter_mut().zip(triangles.clone()) {
             let allowed = self.allowed(vertices, &t);
-            *estimate = self.estimate(vertices, t, allowed);
+            *estimate = self.estimate(vertices, t, allowed, true);
             if !(estimate.error <= allowed) {
                 return false;
             }
@@ -416,7 +416,7 @@ impl Refinement<'_> {
         }
         triangles.enumerate().all(|(k, t)| {
             let allowed = self.allowed(vertices, &t);
-            let estimate = if k < count { estimates[k] } else { self.estimate(vertices, t, allowed) };
+            let estimate = if k < count { estimates[k] } else { self.estimate(vertices, t, allowed, true) };
             self.proven(vertices, t, &estimate, allowed).error <= allowed
         })
     }

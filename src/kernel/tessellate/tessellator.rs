@@ -3,8 +3,6 @@
 //! [`Tessellator`] keeps the steps apart, because faces that share edges must agree on their chords first: the caller may
 //! take each run's chords from elsewhere ([`Tessellator::mesh`]) and is told which of them the face cannot live with.
 
-use std::collections::BTreeMap;
-
 use glam::{DVec2, DVec3};
 
 use super::bends::Bends;
@@ -211,7 +209,8 @@ impl<'a> Tessellator<'a> {
         let mut vertices = Vertices::default();
         let mut quality = Quality::default();
         let mut loops: Vec<Vec<u32>> = Vec::new();
-        let mut owners: BTreeMap<[u32; 2], LongChord> = BTreeMap::new();
+        // For each vertex of the boundary the next one, and the chord between them.
+        let mut ways: Vec<(u32, LongChord)> = Vec::new();
         for (chain, runs) in boundary.iter().enumerate() {
             let mut ring = Vec::new();
             for (run, samples) in runs.iter().enumerate() {
@@ -234,11 +233,11 @@ impl<'a> Tessellator<'a> {
                     }
                 }
             }
-            for (k, (number, owner)) in ring.iter().enumerate() {
-                owners.insert([*number, ring[(k + 1) % ring.len()].0], *owner);
-            }
+            ways.extend(ring.iter().enumerate().map(|(k, way)| (ring[(k + 1) % ring.len()].0, way.1)));
             loops.push(ring.into_iter().map(|r| r.0).collect());
         }
+        let owner = |[a, b]: [u32; 2]| ways.get(a as usize).filter(|way| way.0 == b).map(|way| &way.1);
+        let either = |[a, b]: [u32; 2]| owner([a, b]).or_else(|| owner([b, a]));
         if self.plane.is_none() {
             self.align(&mut vertices.uvs);
         }
@@ -250,7 +249,7 @@ impl<'a> Tessellator<'a> {
         quality.crossings = crossings.places.len();
         for (a, b) in &crossings.pairs {
             for chord in [*a, *b, [a[1], a[0]], [b[1], b[0]]] {
-                long.extend(owners.get(&chord).map(|c| LongChord { crossed: true, ..*c }));
+                long.extend(owner(chord).map(|c| LongChord { crossed: true, ..*c }));
             }
         }
         if draft && !long.is_empty() {
@@ -266,7 +265,7 @@ impl<'a> Tessellator<'a> {
             quality.error = refined.error;
             quality.over_tolerance = refined.over;
             for chord in refined.stubborn {
-                long.extend(owners.get(&chord).or_else(|| owners.get(&[chord[1], chord[0]])));
+                long.extend(either(chord));
             }
             if refined.unfinished && !long.is_empty() {
                 return Ok((None, sorted(long)));
@@ -282,9 +281,8 @@ impl<'a> Tessellator<'a> {
             let within = |t: [u32; 3]| refinement.hold(&vertices, std::iter::once(t));
             untangle(&mut triangles, &vertices, within);
             decimate(&mut triangles, &vertices, &refinement, cancelled);
-            for [a, b] in folded(&vertices, &triangles) {
-                let owner = owners.get(&[a, b]).or_else(|| owners.get(&[b, a]));
-                long.extend(owner.map(|c| LongChord { crossed: true, ..*c }));
+            for chord in folded(&vertices, &triangles) {
+                long.extend(either(chord).map(|c| LongChord { crossed: true, ..*c }));
             }
         }
         let mesh = finish(vertices, triangles, loops, quality);

@@ -74,19 +74,25 @@ impl Region {
     /// Triangulates closed `loops` of vertex numbers over `places`. Vertices in the same place become one: the first.
     /// Crossing vertices get numbers from `places.len()` on.
     pub fn new(places: &[DVec2], loops: &[Vec<u32>]) -> (Self, Crossings) {
-        let mut delaunay = Delaunay::new();
+        let count: usize = loops.iter().map(Vec::len).sum();
+        let mut delaunay = Delaunay::with_capacity(count, 3 * count, 2 * count);
         let mut handles = vec![None; places.len()];
         let mut hint = None;
+        // The caller's number of each vertex.
+        let mut firsts: Vec<u32> = Vec::with_capacity(count);
         for number in loops.iter().flatten() {
             let site = Site { place: point(places[*number as usize]), number: *number };
-            // Where a vertex lies already it stays, with its number.
-            let handle = match existing(&delaunay, site.place, hint) {
-                Some(handle) => Some(handle),
-                None => match hint {
-                    Some(hint) => delaunay.insert_with_hint(site, hint).ok(),
-                    None => delaunay.insert(site).ok(),
-                },
+            let handle = match hint {
+                Some(hint) => delaunay.insert_with_hint(site, hint).ok(),
+                None => delaunay.insert(site).ok(),
             };
+            if let Some(handle) = handle {
+                // Where a vertex lies already it stays, with its number.
+                match firsts.get(handle.index()) {
+                    Some(first) => delaunay.vertex_data_mut(handle).number = *first,
+                    None => firsts.push(*number),
+                }
+            }
             handles[*number as usize] = handle;
             hint = handle.or(hint);
         }
@@ -242,7 +248,8 @@ impl Region {
         hint: FixedVertexHandle,
     ) -> Option<Vec<[FixedVertexHandle; 3]>> {
         let site = Site { place: point(at), number };
-        let free = match self.delaunay.locate_with_hint(site.place, hint) {
+        let found = self.delaunay.locate_with_hint(site.place, hint);
+        let free = match found {
             PositionInTriangulation::OnFace(face) => {
                 *self.delaunay.face(face).data() == Side::Inside && self.is_clear(face, at)
             }
@@ -260,7 +267,13 @@ impl Region {
         if !free {
             return None;
         }
-        let vertex = self.delaunay.insert_with_hint(site, hint).ok()?;
+        // It is looked for again: from where it was found.
+        let near = match found {
+            PositionInTriangulation::OnFace(face) => self.delaunay.face(face).vertices()[0].fix(),
+            PositionInTriangulation::OnEdge(edge) => self.delaunay.directed_edge(edge).from().fix(),
+            _ => hint,
+        };
+        let vertex = self.delaunay.insert_with_hint(site, near).ok()?;
         let around: Vec<FixedFaceHandle<InnerTag>> = self
             .delaunay
             .vertex(vertex)
@@ -298,21 +311,6 @@ impl Region {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
-    }
-}
-
-fn existing(
-    delaunay: &Delaunay,
-    at: Point2<f64>,
-    hint: Option<FixedVertexHandle>,
-) -> Option<FixedVertexHandle> {
-    let found = match hint {
-        Some(hint) => delaunay.locate_with_hint(at, hint),
-        None => delaunay.locate(at),
-    };
-    match found {
-        PositionInTriangulation::OnVertex(vertex) => Some(vertex),
-        _ => None,
     }
 }
 

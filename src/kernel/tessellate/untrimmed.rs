@@ -87,7 +87,7 @@ pub(super) fn normal(ground: &Ground, uv: DVec2, domain: &UvRect, slightly: DVec
 }
 
 /// The unit normal, where derivatives give one.
-fn upright(at: &Tangents) -> Option<DVec3> {
+pub(super) fn upright(at: &Tangents) -> Option<DVec3> {
     let cross = at.du.cross(at.dv);
     (cross.length() > 1e-9 * at.du.length() * at.dv.length() && cross.length() > 0.0)
         .then(|| cross.normalize())
