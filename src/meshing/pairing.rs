@@ -14,6 +14,8 @@ use crate::kernel::tessellate::Run;
 const MOST_BESIDE: usize = 24;
 /// Two stretches of which one is shorter than this part of the other are not one.
 const ALIKE: f64 = 0.5;
+/// Runs whose control points are within this part of the reach are one.
+const ROUNDING: f64 = 1e-6;
 /// Two stretches of which this part of their length is between them are not one, whatever their ends.
 const THIN: f64 = 0.05;
 
@@ -140,6 +142,10 @@ fn beside(a: &Run, along: &Stretch, b: &Run, other: &Stretch, reach: f64) -> Opt
     let at = |stretch: &Stretch, share: f64| stretch.range.0 + (stretch.range.1 - stretch.range.0) * share;
     let closed = along.ends[0] == along.ends[1];
     let opposite = !closed && along.ends != other.ends;
+    let whole = along.range == (0.0, a.range()) && other.range == (0.0, b.range());
+    if !closed && whole && a.is_like(b, !opposite, ROUNDING * reach) {
+        return (!opposite || along.ends[0] == other.ends[1]).then_some((!opposite, 0.0));
+    }
     let near = |p: DVec3, guess: f64| {
         let foot = |guess: f64| {
             let s = a.project(p, guess, along.range);

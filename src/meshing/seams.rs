@@ -88,6 +88,8 @@ const FAR: f64 = 0.05;
 const MIDDLE: f64 = 0.005;
 /// Feet within this part of the tolerance are not looked for any nearer.
 const NO_GAP: f64 = 5e-4;
+/// Runs whose control points are within this part of it are one.
+const ALIKE: f64 = 1e-4;
 /// Runs of so many pieces at most are compared at fewer places first.
 const FEW_PIECES: usize = 4;
 /// Places between the ends at which stretches of a seam are compared.
@@ -269,6 +271,12 @@ impl Seams {
                 // Vertices are put in the middle.
                 0.5 * off
             };
+            if Self::is_whole(stretch, run)
+                && Self::is_whole(owner, first)
+                && run.is_like(first, stretch.forward, nothing)
+            {
+                continue;
+            }
             // Few pieces that are one at a third of the places are one between them.
             let few = places > 1 && run.pieces.len().max(first.pieces.len()) <= FEW_PIECES;
             if few && (1..=places).skip(1).step_by(3).all(|k| off(k) <= nothing) {
@@ -280,6 +288,11 @@ impl Seams {
         gap
     }
 
+    /// Whether a stretch is its whole run.
+    fn is_whole(stretch: &Stretch, run: &Run) -> bool {
+        stretch.range == (0.0, run.range())
+    }
+
     /// The vertices of stretch `number` from those of its seam's first, in its own direction.
     pub fn transfer(
         &self,
@@ -289,10 +302,15 @@ impl Seams {
     ) -> Vec<EdgeSample> {
         let stretch = &self.stretches[number];
         let owner = &self.stretches[self.seams[stretch.seam].stretches[0]];
-        let Some((_, run)) = run_of(faces, &stretch.address) else { return Vec::new() };
+        let Some((face, run)) = run_of(faces, &stretch.address) else { return Vec::new() };
         if self.seams[stretch.seam].stretches[0] == number {
             return first.to_vec();
         }
+        let alike = run_of(faces, &owner.address).is_some_and(|(_, other)| {
+            Self::is_whole(stretch, run)
+                && Self::is_whole(owner, other)
+                && run.is_like(other, stretch.forward, ALIKE * face.tolerance())
+        });
         let (from, to) = stretch.range;
         let span = owner.range.1 - owner.range.0;
         let count = first.len();
@@ -308,6 +326,10 @@ impl Seams {
                     let low = samples[k - 1].s;
                     let target = source.point - source.off;
                     let guess = (from + (to - from) * share).max(low);
+                    if alike && guess > low && guess < to {
+                        samples.push(EdgeSample { s: guess, uv: run.uv(guess), ..*source });
+                        continue;
+                    }
                     let off = |s: f64| run.point(s).distance(target);
                     let mut s = run.project(target, guess, (low, to));
                     let step = run.point(guess).distance(samples[k - 1].point);

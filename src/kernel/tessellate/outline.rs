@@ -208,6 +208,25 @@ impl Run {
         feet.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|foot| foot.1 <= reach)
     }
 
+    /// Whether the run is another one, or that backwards: the same points at the same parameters, to within about `reach`.
+    pub fn is_like(&self, other: &Self, forward: bool, reach: f64) -> bool {
+        /// Part of a weight that is rounding.
+        const ROUNDING: f64 = 1e-10;
+        let count = self.pieces.len();
+        let alike = |k: usize| {
+            let a = &self.pieces[k].space;
+            let b = &other.pieces[if forward { k } else { count - 1 - k }].space;
+            let degree = a.degree();
+            let of = |i: usize| if forward { i } else { degree - i };
+            let point = |i: usize| {
+                let (x, y) = (a.weights[i] * b.weights[of(0)], a.weights[0] * b.weights[of(i)]);
+                a.points[i].distance(b.points[of(i)]) <= reach && (x - y).abs() <= ROUNDING * x
+            };
+            degree == b.degree() && (0..=degree).all(point)
+        };
+        count == other.pieces.len() && (0..count).all(alike)
+    }
+
     /// The vector towards the centre of curvature at `s`, as long as the curvature.
     pub fn curvature(&self, s: f64) -> DVec3 {
         let (piece, t) = self.at(s);
@@ -289,7 +308,7 @@ impl Outline {
                     runs.push(Run { source: piece.source, pieces: Vec::new() });
                 }
                 if let Some(run) = runs.last_mut() {
-                    cut_and_lift(&curve, ground, precision, &mut run.pieces);
+                    cut_and_lift(curve, ground, precision, &mut run.pieces);
                 }
             }
             runs.iter_mut().for_each(|run| drop_crumbs(run, face.domain.size()));
@@ -359,7 +378,7 @@ fn set_end(piece: &mut LiftedPiece, uv: DVec2, point: DVec3) {
 }
 
 /// Cuts a monotone curve at the lines between patches and lifts the parts.
-fn cut_and_lift(curve: &BezierCurve2, ground: &Ground, precision: f64, pieces: &mut Vec<LiftedPiece>) {
+fn cut_and_lift(curve: BezierCurve2, ground: &Ground, precision: f64, pieces: &mut Vec<LiftedPiece>) {
     let mut cuts = vec![0.0];
     for (axis, lines) in [(0, ground.sheet.u_lines()), (1, ground.sheet.v_lines())] {
         let (a, b) = (curve.start()[axis], curve.end()[axis]);
@@ -367,7 +386,7 @@ fn cut_and_lift(curve: &BezierCurve2, ground: &Ground, precision: f64, pieces: &
         // A line that hardly reaches across a border of a patch stays whole.
         let slack = 1e-9 * (high - low);
         let inside = lines.iter().filter(|x| **x > low + slack && **x < high - slack);
-        cuts.extend(inside.map(|x| crossing(curve, axis, *x)));
+        cuts.extend(inside.map(|x| crossing(&curve, axis, *x)));
     }
     cuts.push(1.0);
     cuts.sort_unstable_by(f64::total_cmp);
@@ -376,9 +395,12 @@ fn cut_and_lift(curve: &BezierCurve2, ground: &Ground, precision: f64, pieces: &
         *last = 1.0;
     }
     let parts = cuts.len() - 1;
+    if parts == 1 {
+        return lift_part(curve, ground, precision, pieces);
+    }
     let mut from = curve.start();
     for k in 0..parts {
-        let mut part = if parts == 1 { curve.clone() } else { curve.restrict(cuts[k], cuts[k + 1]) };
+        let mut part = curve.restrict(cuts[k], cuts[k + 1]);
         let last = part.points.len() - 1;
         part.points[0] = from;
         if k + 1 == parts {

@@ -34,6 +34,19 @@ pub struct Vertices {
 }
 
 impl Vertices {
+    /// None yet, with room for `count`.
+    pub(super) fn with_capacity(count: usize) -> Self {
+        Self {
+            uvs: Vec::with_capacity(count),
+            on_surface: Vec::with_capacity(count),
+            positions: Vec::with_capacity(count),
+            upright: Vec::with_capacity(count),
+            normals: Vec::with_capacity(count),
+            gaps: Vec::with_capacity(count),
+            fixed: 0,
+        }
+    }
+
     /// Puts a vertex inside nearer to the surface, where it is farther off than `most`.
     pub(super) fn lower(&mut self, k: usize, most: f64) -> bool {
         let p = self.on_surface[k];

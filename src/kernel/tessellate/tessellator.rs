@@ -206,7 +206,8 @@ impl<'a> Tessellator<'a> {
             middles: Middles::default(),
         };
         let mut long = Vec::new();
-        let mut vertices = Vertices::default();
+        let count: usize = boundary.iter().flatten().map(Vec::len).sum();
+        let mut vertices = Vertices::with_capacity(if self.plane.is_some() { count } else { 2 * count });
         let mut quality = Quality::default();
         let mut loops: Vec<Vec<u32>> = Vec::new();
         // For each vertex of the boundary the next one, and the chord between them.

@@ -5,10 +5,8 @@
 //! connected region by even-odd over all chords, as the rest of the program does; points inserted later inherit it.
 //! Holes need no bridges: they are constraints like any others.
 
-use std::collections::BTreeSet;
-
 use glam::DVec2;
-use spade::handles::{FixedFaceHandle, FixedVertexHandle, InnerTag};
+use spade::handles::{FixedDirectedEdgeHandle, FixedFaceHandle, FixedVertexHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation};
 
 /// A vertex of the triangulation: its place and its number among the caller's vertices.
@@ -97,7 +95,8 @@ impl Region {
             hint = handle.or(hint);
         }
         let mut crossings = Crossings::default();
-        let mut odd: BTreeSet<[usize; 2]> = BTreeSet::new();
+        // By undirected edges, whose handles stay while no vertex is added.
+        let mut odd = vec![false; delaunay.num_undirected_edges()];
         for ring in loops {
             for (k, from) in ring.iter().enumerate() {
                 let to = ring[(k + 1) % ring.len()];
@@ -107,10 +106,8 @@ impl Region {
                 }
                 let laid = delaunay.try_add_constraint(a, b);
                 for edge in &laid {
-                    let [from, to] = delaunay.directed_edge(*edge).vertices().map(|v| v.fix().index());
-                    let key = [from.min(to), from.max(to)];
-                    if !odd.remove(&key) {
-                        odd.insert(key);
+                    if let Some(odd) = odd.get_mut(edge.as_undirected().index()) {
+                        *odd = !*odd;
                     }
                 }
                 if !laid.is_empty() {
@@ -141,13 +138,12 @@ impl Region {
 
     /// Marks every triangle as inside or outside, from the outside inwards: the side changes at chords laid an odd number
     /// of times. No numbers are compared, so triangles of no width are right as well.
-    fn spread(&mut self, odd: &BTreeSet<[usize; 2]>) {
-        let mut open: Vec<(FixedFaceHandle<InnerTag>, bool)> = Vec::new();
-        let changes = |from: usize, to: usize| odd.contains(&[from.min(to), from.max(to)]);
+    fn spread(&mut self, odd: &[bool]) {
+        let mut open: Vec<(FixedFaceHandle<InnerTag>, bool)> = Vec::with_capacity(self.len() + 1);
+        let changes = |edge: FixedDirectedEdgeHandle| odd.get(edge.as_undirected().index()) == Some(&true);
         for edge in self.delaunay.convex_hull() {
-            let [from, to] = edge.vertices().map(|v| v.fix().index());
             let inner = [edge.face(), edge.rev().face()].into_iter().filter_map(|f| f.as_inner());
-            open.extend(inner.map(|f| (f.fix(), changes(from, to))));
+            open.extend(inner.map(|f| (f.fix(), changes(edge.fix()))));
         }
         while let Some((face, inside)) = open.pop() {
             if *self.delaunay.face(face).data() != Side::Unknown {
@@ -155,9 +151,8 @@ impl Region {
             }
             *self.delaunay.face_data_mut(face) = if inside { Side::Inside } else { Side::Outside };
             for edge in self.delaunay.face(face).adjacent_edges() {
-                let [from, to] = edge.vertices().map(|v| v.fix().index());
                 let next = edge.rev().face().as_inner().map(|f| f.fix());
-                open.extend(next.map(|f| (f, inside != changes(from, to))));
+                open.extend(next.map(|f| (f, inside != changes(edge.fix()))));
             }
         }
     }
