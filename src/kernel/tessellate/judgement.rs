@@ -90,8 +90,8 @@ impl Refinement<'_> {
             }
         }
         // The sine of the largest turn, 1 beyond a right angle.
-        let sine = |n: DVec3| if n.dot(normal) > 0.0 { n.cross(normal).length() } else { 1.0 };
-        let turn = if solid { normals.map(sine).into_iter().fold(0.0, f64::max) } else { 0.0 };
+        let squared = |n: DVec3| if n.dot(normal) > 0.0 { n.cross(normal).length_squared() } else { 1.0 };
+        let turn = if solid { normals.map(squared).into_iter().fold(0.0, f64::max).sqrt() } else { 0.0 };
         let mut sideways = 0.0f64;
         let mut asides = [0.0; 3];
         let mut worst = 0.0f64;
@@ -101,10 +101,14 @@ impl Refinement<'_> {
             let up = height.abs();
             worst = if up > worst.abs() { height } else { worst };
             if solid {
-                let out = edges[k].cross(normal).normalize_or_zero();
-                let aside = d.dot(out).abs();
+                // As long as the edge, which the normal is upright on.
+                let out = edges[k].cross(normal);
+                let aside = d.dot(out).abs() / edges[k].length_squared().max(f64::MIN_POSITIVE).sqrt();
                 asides[k] = aside;
-                sideways = sideways.max((2.0 * aside * turn).min((up * up + aside * aside).sqrt() - up));
+                let most = 2.0 * aside * turn;
+                if most > sideways {
+                    sideways = sideways.max(most.min((up * up + aside * aside).sqrt() - up));
+                }
             }
             up
         });

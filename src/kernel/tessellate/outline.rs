@@ -227,6 +227,12 @@ impl Run {
         count == other.pieces.len() && (0..count).all(alike)
     }
 
+    /// Whether the part between two parameters lies on one piece that is a line in parameters.
+    pub fn is_straight(&self, from: f64, to: f64) -> bool {
+        let k = from as usize;
+        to <= (k + 1) as f64 && self.pieces.get(k).is_some_and(|piece| piece.uv.points.len() == 2)
+    }
+
     /// The vector towards the centre of curvature at `s`, as long as the curvature.
     pub fn curvature(&self, s: f64) -> DVec3 {
         let (piece, t) = self.at(s);

@@ -293,13 +293,18 @@ impl<'a> Tessellator<'a> {
         Ok((Some(mesh), sorted(long)))
     }
 
-    /// Chords whose straight line in parameters leaves the chord by more than the tolerance.
+    /// Chords whose straight line in parameters leaves the chord by more than the tolerance. Where the run itself is straight in
+    /// parameters that line is the run, which its division has held against the chord.
     pub fn long_chords(&self, boundary: &Boundary) -> Vec<LongChord> {
         let Some(flatness) = &self.flatness else { return Vec::new() };
         let mut long = Vec::new();
         for (chain, runs) in boundary.iter().enumerate() {
             for (run, samples) in runs.iter().enumerate() {
+                let source = self.outline.chains.get(chain).and_then(|runs| runs.get(run));
                 for (index, pair) in samples.windows(2).enumerate() {
+                    if source.is_some_and(|run| run.is_straight(pair[0].s, pair[1].s)) {
+                        continue;
+                    }
                     let uv = [pair[0].uv, pair[1].uv];
                     let p = [0, 1].map(|k| self.ground.point(uv[k]) + pair[k].off);
                     if flatness.chord(uv, p, CHORD_LIMIT * self.tolerance) > CHORD_LIMIT * self.tolerance
