@@ -107,7 +107,9 @@ fn row(ui: &mut Ui, command: &Command, chosen: bool, reads: &Reads) -> egui::Res
         ui.painter().rect_filled(rect, CornerRadius::same(4), fill);
     }
     let color = match (enabled, chosen) {
-        (false, _) => p.weak.gamma_multiply(0.6),
+        // On the colour of the chosen row anything weaker cannot be read.
+        (false, true) => p.weak,
+        (false, false) => p.weak.gamma_multiply(0.6),
         (true, true) => p.strong,
         (true, false) => p.text,
     };
