@@ -24,7 +24,9 @@ const SIZE: [u32; 2] = [1024, 768];
 /// Frames of each kind, one after the other; the median counts.
 const ROUNDS: u32 = 5;
 /// The same for frames from triangles, which are short, so that several are timed at a time.
+#[cfg(feature = "gpu")]
 const MESH_ROUNDS: u32 = 40;
+#[cfg(feature = "gpu")]
 const MESH_FRAMES: u32 = 4;
 /// What is compared: with trims and without.
 const MODES: [DisplayMode; 2] = [DisplayMode::Shaded, DisplayMode::Untrimmed];
