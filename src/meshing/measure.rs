@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::model_mesh::ModelMesh;
 use crate::kernel::bezier::BezierCurve3;
 use crate::kernel::face::{Face, Side};
-use crate::kernel::query::{BoundsTree, Locator, closest_on_surface};
+use crate::kernel::query::{BoundsTree, Locator, closer_on_surface};
 use crate::kernel::tessellate::line_error::distance_to_segment;
 use crate::kernel::tessellate::outline::LiftedPiece;
 use crate::kernel::tessellate::{FaceMesh, Ground, Outline};
@@ -180,7 +180,7 @@ impl<'a> Target<'a> {
             |foot: DVec2, off: f64| if outside(foot) { off.max(self.off_outline(p)) } else { off };
         let mut found = from_face(foot, off);
         if found > most
-            && let Some(nearest) = closest_on_surface(&self.face.patches, p)
+            && let Some(nearest) = closer_on_surface(&self.face.patches, p, found)
         {
             if nearest.distance < off {
                 (foot, off) = (nearest.uv, nearest.distance);

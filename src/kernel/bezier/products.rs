@@ -75,11 +75,14 @@ impl<T: Copy> Scaled<T> {
         let degree = (m1 + m2, n1 + n2);
         let stride = degree.1 + 1;
         let mut coefficients = vec![P::default(); (degree.0 + 1) * stride];
-        for (k, a) in self.coefficients.iter().enumerate() {
-            let (i, j) = (k / (n1 + 1), k % (n1 + 1));
-            for (l, b) in other.coefficients.iter().enumerate() {
-                let at = (i + l / (n2 + 1)) * stride + j + l % (n2 + 1);
-                coefficients[at] += times(*a, *b);
+        for (i, row) in self.coefficients.chunks_exact(n1 + 1).enumerate() {
+            for (k, other_row) in other.coefficients.chunks_exact(n2 + 1).enumerate() {
+                let sums = &mut coefficients[(i + k) * stride..][..stride];
+                for (j, a) in row.iter().enumerate() {
+                    for (sum, b) in sums[j..].iter_mut().zip(other_row) {
+                        *sum += times(*a, *b);
+                    }
+                }
             }
         }
         Scaled { degree, coefficients }

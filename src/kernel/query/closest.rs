@@ -3,10 +3,12 @@
 //! The squared distance times the squared weight is a polynomial whose Bernstein coefficients bound it from
 //! below, to second order in the size of a part. Parts are bisected and dropped when their bound
 //! does not beat the best point found; each part looked at starts a Newton search (projected on its
-//! borders) for a better one. What is returned is closest up to [`ACCURACY`] of the size of the shape.
+//! borders) for a better one. A part of a surface on which that polynomial is convex holds no other minimum than the
+//! one found, and is done with. What is returned is closest up to [`ACCURACY`] of the size of the shape.
 
 use glam::{DMat2, DVec2, DVec3};
 
+use crate::kernel::bezier::bernstein::binomial_row;
 use crate::kernel::bezier::products::{distance_coefficients, distance_coefficients_of_curve};
 use crate::kernel::bezier::{BezierCurve, BezierPatch};
 use crate::kernel::vector::Vector;
@@ -74,41 +76,129 @@ pub fn closest_on_curve<V: Vector>(
 
 /// The point of `patches` closest to `target`; `None` when there are none.
 pub fn closest_on_surface(patches: &[BezierPatch], target: DVec3) -> Option<ClosestOnSurface> {
-    let mut best: Option<ClosestOnSurface> = None;
-    let mut offer = |patch: usize, uv: DVec2, point: DVec3| {
-        let distance = (point - target).length();
-        if best.is_none_or(|b| distance < b.distance) {
-            best = Some(ClosestOnSurface { uv, patch, point, distance });
-        }
-        best.map_or(f64::INFINITY, |b| b.distance)
-    };
-    let mut limit = f64::INFINITY;
-    let mut parts = std::collections::VecDeque::new();
-    let mut size = 0.0f64;
-    for (number, patch) in patches.iter().enumerate() {
-        for local in [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE, DVec2::splat(0.5)] {
-            limit = offer(number, patch.native(local), patch.point(local.x, local.y));
-        }
+    closer_on_surface(patches, target, f64::INFINITY)
+}
+
+/// The same where it is nearer than `known`; `None` when no point is.
+pub fn closer_on_surface(patches: &[BezierPatch], target: DVec3, known: f64) -> Option<ClosestOnSurface> {
+    let from_box = |patch: &BezierPatch| {
         let bounds = patch.bounds();
+        ((target.clamp(bounds.min, bounds.max) - target).length(), bounds)
+    };
+    let mut size = 0.0f64;
+    let mut order: Vec<(f64, usize)> = Vec::with_capacity(patches.len());
+    for (number, patch) in patches.iter().enumerate() {
+        let (away, bounds) = from_box(patch);
         size = size.max((bounds.centre() - target).length() + bounds.diagonal());
-        parts.push_back((number, patch.clone()));
+        order.push((away, number));
     }
-    for _ in 0..BUDGET {
-        let Some((number, part)) = parts.pop_front() else { break };
-        let worth = limit - ACCURACY * size;
-        let bounds = part.bounds();
-        let from_box = (target.clamp(bounds.min, bounds.max) - target).length();
-        if worth <= 0.0 || from_box > worth || cannot_beat(&distance_coefficients(&part, target), worth) {
-            continue;
+    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut search = Search { target, size, limit: known, best: None, left: BUDGET };
+    for (away, number) in order {
+        if away > search.worth() {
+            break;
         }
-        let (local, point) = descend(&part, target);
-        limit = offer(number, part.native(local), point);
-        let middle = part.native(DVec2::splat(0.5));
-        if (middle.cmpgt(part.uv_min) & middle.cmplt(part.uv_max)).all() {
-            parts.extend(part.quarters().map(|quarter| (number, quarter)));
+        search.patch(number, &patches[number]);
+    }
+    search.best
+}
+
+/// A search for the closest point under way.
+struct Search {
+    target: DVec3,
+    /// Of all patches as seen from the target.
+    size: f64,
+    /// Distance of the best point known.
+    limit: f64,
+    best: Option<ClosestOnSurface>,
+    /// Parts that may still be looked at.
+    left: usize,
+}
+
+impl Search {
+    /// What a point must be nearer than to count.
+    fn worth(&self) -> f64 {
+        self.limit - ACCURACY * self.size
+    }
+
+    fn offer(&mut self, patch: usize, uv: DVec2, point: DVec3) {
+        let distance = (point - self.target).length();
+        if distance < self.limit {
+            self.limit = distance;
+            self.best = Some(ClosestOnSurface { uv, patch, point, distance });
         }
     }
-    best
+
+    fn patch(&mut self, number: usize, patch: &BezierPatch) {
+        for local in [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE, DVec2::splat(0.5)] {
+            self.offer(number, patch.native(local), patch.point(local.x, local.y));
+        }
+        let mut parts = std::collections::VecDeque::from([patch.clone()]);
+        while let Some(part) = parts.pop_front() {
+            if self.left == 0 {
+                break;
+            }
+            self.left -= 1;
+            let bounds = part.bounds();
+            let from_box = (self.target.clamp(bounds.min, bounds.max) - self.target).length();
+            if self.worth() <= 0.0 || from_box > self.worth() {
+                continue;
+            }
+            let coefficients = distance_coefficients(&part, self.target);
+            if cannot_beat(&coefficients, self.worth()) {
+                continue;
+            }
+            let foot = descend(&part, self.target);
+            self.offer(number, part.native(foot.local), foot.point);
+            let middle = part.native(DVec2::splat(0.5));
+            if (middle.cmpgt(part.uv_min) & middle.cmplt(part.uv_max)).all()
+                && !self.is_settled(&part, &coefficients, &foot)
+            {
+                parts.extend(part.quarters());
+            }
+        }
+    }
+
+    /// Whether no point of `part` is nearer than the one that Newton's method found, up to the accuracy: the polynomial that
+    /// bounds the distance is convex there and all but stationary at the foot.
+    fn is_settled(&self, part: &BezierPatch, coefficients: &[(f64, f64)], foot: &Foot) -> bool {
+        let (m, n) = (part.degree_u, part.degree_v);
+        let range = part.weights.iter().fold((f64::INFINITY, 0.0f64), |r, w| (r.0.min(*w), r.1.max(*w)));
+        // What the weights add to the slope at the foot comes to less than half of what the foot is off by.
+        if (m + n) as f64 * (range.1 - range.0) >= 0.5 * range.0 {
+            return false;
+        }
+        let squared = self.limit * self.limit;
+        let (bu, bv) = (binomial_row(2 * m), binomial_row(2 * n));
+        let f = |i: usize, j: usize| {
+            let (distance, weight) = coefficients[i * (2 * n + 1) + j];
+            (distance - squared * weight) / (bu[i] * bv[j])
+        };
+        let (mut uu, mut vv, mut uv) = (f64::INFINITY, f64::INFINITY, 0.0f64);
+        for i in 0..=2 * m {
+            for j in 0..=2 * n {
+                if i < 2 * m - 1 {
+                    uu = uu.min(f(i + 2, j) - 2.0 * f(i + 1, j) + f(i, j));
+                }
+                if j < 2 * n - 1 {
+                    vv = vv.min(f(i, j + 2) - 2.0 * f(i, j + 1) + f(i, j));
+                }
+                if i < 2 * m && j < 2 * n {
+                    uv = uv.max((f(i + 1, j + 1) - f(i + 1, j) - f(i, j + 1) + f(i, j)).abs());
+                }
+            }
+        }
+        let (m, n) = (2.0 * m as f64, 2.0 * n as f64);
+        let (uu, vv, uv) = (m * (m - 1.0) * uu, n * (n - 1.0) * vv, m * n * uv);
+        let apart = 1.0 - uv / (uu * vv).sqrt();
+        if !(uu > 0.0 && vv > 0.0 && apart > 0.05) {
+            return false;
+        }
+        // A quadratic below the polynomial is lower by no more than this.
+        let slope = 2.0 * range.1 * range.1 * foot.slope;
+        let gain = (slope.x * slope.x / uu + slope.y * slope.y / vv) / (2.0 * apart);
+        gain <= range.0 * range.0 * ACCURACY * self.size * self.limit
+    }
 }
 
 fn offer<V: Vector>(best: &mut Option<ClosestOnCurve<V>>, t: f64, point: V, target: V) {
@@ -155,10 +245,20 @@ fn descend_curve<V: Vector>(curve: &BezierCurve<V>, target: V) -> (f64, V) {
     (t, jet.point)
 }
 
+/// Where Newton's method ended on a patch.
+struct Foot {
+    /// Parameters, 0 to 1.
+    local: DVec2,
+    point: DVec3,
+    /// Half the derivatives of the squared distance there, without those across a border that holds it back.
+    slope: DVec2,
+}
+
 /// The same for a patch.
-fn descend(patch: &BezierPatch, target: DVec3) -> (DVec2, DVec3) {
+fn descend(patch: &BezierPatch, target: DVec3) -> Foot {
     let mut uv = DVec2::splat(0.5);
     let mut jet = patch.jet(uv.x, uv.y);
+    let mut rest = DVec2::ZERO;
     for _ in 0..20 {
         let off = jet.point - target;
         let mut slope = DVec2::new(off.dot(jet.du), off.dot(jet.dv));
@@ -181,6 +281,7 @@ fn descend(patch: &BezierPatch, target: DVec3) -> (DVec2, DVec3) {
                 hessian.y_axis[0] = 0.0;
             }
         }
+        rest = slope;
         let mut step = -(hessian.inverse() * slope);
         if !step.is_finite() {
             step = -slope / first.x_axis.x.max(first.y_axis.y).max(f64::MIN_POSITIVE);
@@ -198,5 +299,5 @@ fn descend(patch: &BezierPatch, target: DVec3) -> (DVec2, DVec3) {
         let Some((next, there)) = moved else { break };
         (uv, jet) = (next, there);
     }
-    (uv, jet.point)
+    Foot { local: uv, point: jet.point, slope: rest }
 }

@@ -24,7 +24,7 @@ pub use boundary::Boundary;
 pub use bounds::{face_bounds, trimmed_bounds};
 pub use bounds_tree::BoundsTree;
 pub use carrier::{Carrier, SplineCarrier};
-pub use closest::{closest_on_curve, closest_on_surface};
+pub use closest::{closer_on_surface, closest_on_curve, closest_on_surface};
 pub use lift::{Lift, lift};
 pub use locate::Locator;
 pub use project::{Projection, project};
