@@ -14,6 +14,7 @@ pub mod model_mesh;
 pub mod orient;
 mod pairing;
 pub mod seams;
+mod starts;
 mod stretches;
 
 pub use deviation::{deviations, face_deviations};

@@ -11,6 +11,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::seams::{Seams, run_of};
+use super::starts;
 use crate::kernel::face::Face;
 use crate::kernel::tessellate::chords::{CROSSED_STEP, STEP, halve_chord, is_common};
 use crate::kernel::tessellate::{
@@ -120,7 +121,7 @@ fn remesh(
         })
         .collect();
     let mut failed: Vec<Option<TessellateError>> = Vec::with_capacity(faces.len());
-    let prepared: Vec<Option<Tessellator>> = prepared
+    let mut prepared: Vec<Option<Tessellator>> = prepared
         .into_iter()
         .map(|p| match p {
             Ok(tessellator) => {
@@ -138,6 +139,7 @@ fn remesh(
     let size = bounds.diagonal();
     let farthest = FARTHEST * size;
     let reach = (REACH * options.tolerance).min(farthest).max(NEAREST * size);
+    starts::meet(&mut prepared, reach, farthest);
     let seams = Seams::new(&prepared, WELL_MADE * size, reach, farthest);
     let too_many = TessellateError::TooManyTriangles { limit: options.triangle_limit };
     let Some(mut division) = Division::new(&seams, &prepared, options.triangle_limit) else {

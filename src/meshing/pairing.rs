@@ -86,7 +86,7 @@ impl Pairing<'_, '_> {
             _ => return,
         };
         let [x, y] = [self.stretches[a], self.stretches[b]];
-        if x.address.face == y.address.face || x.ends[0] == x.ends[1] {
+        if x.address.face == y.address.face {
             return;
         }
         let short = self.lengths[a].min(self.lengths[b]);

@@ -131,7 +131,7 @@ impl Seams {
             (found, of) = Self::between(&runs, &cuts, &reaches);
             single = found.single(&of, &lengths, reach);
         }
-        if farthest > reach && single.contains(&true) {
+        if farthest >= reach && single.contains(&true) {
             for k in (0..runs.len()).filter(|k| single[*k]) {
                 reaches.of[k] = farthest;
                 // Where they were cut is where nothing farther away was known.
@@ -362,9 +362,11 @@ pub fn run_of<'f, 'a>(
 mod tests {
     use super::*;
     use crate::kernel::face::Face;
-    use crate::kernel::nurbs::{KnotVector, NurbsSurface};
+    use crate::kernel::nurbs::{KnotVector, NurbsCurve2, NurbsSurface};
     use crate::kernel::tessellate::TessellationOptions;
+    use crate::kernel::trim::loop_record::{LoopRecord, LoopRole};
     use crate::meshing::{ModelMesh, Work, measure_face, mesh_edges, mesh_faces};
+    use glam::DVec2;
 
     fn meshed(faces: &[Face], tolerance: f64) -> ModelMesh {
         let all: Vec<Option<&Face>> = faces.iter().map(Some).collect();
@@ -413,6 +415,43 @@ mod tests {
         let knots = || KnotVector::new(1, vec![0.0, 0.0, 1.0, 1.0]).expect("knots");
         let surface = NurbsSurface::new(knots(), knots(), vec![a, b, c, d], vec![1.0; 4]).expect("a surface");
         Face::derive(&surface, &[]).expect("a face")
+    }
+
+    /// The part of the plane through `z = 0` (and leaning by `lean` along `x`) inside a circle that starts at `angle`, and outside
+    /// of it as far as a square round it if there is one.
+    fn round(lean: f64, angle: f64, square: bool) -> Face {
+        let corner = |x: f64, y: f64| DVec3::new(x, y, lean * (x - 2.0));
+        let corners = [corner(-2.0, -2.0), corner(-2.0, 2.0), corner(2.0, -2.0), corner(2.0, 2.0)];
+        let line = || KnotVector::new(1, vec![-2.0, -2.0, 2.0, 2.0]).expect("knots");
+        let surface = NurbsSurface::new(line(), line(), corners.to_vec(), vec![1.0; 4]).expect("a surface");
+        let ring = |corners: &[DVec2], weights: Vec<f64>, knots: Vec<f64>, degree: usize| {
+            let points = corners.iter().map(|p| DVec2::from_angle(angle).rotate(*p)).collect();
+            let knots = KnotVector::new(degree, knots).expect("knots");
+            let curve = NurbsCurve2::new(knots, points, weights).expect("a curve");
+            LoopRecord::new(LoopRole::Unknown, vec![curve])
+        };
+        let at = |x: f64, y: f64| DVec2::new(x, y);
+        let corners = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)];
+        let corners = corners.map(|(x, y)| at(f64::from(x), f64::from(y)));
+        let weights = (0..9).map(|k| if k % 2 == 0 { 1.0 } else { 0.5f64.sqrt() }).collect();
+        let knots = vec![0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0];
+        let mut loops = vec![ring(&corners, weights, knots, 2)];
+        if square {
+            let corners = [at(1.4, 1.4), at(-1.4, 1.4), at(-1.4, -1.4), at(1.4, -1.4), at(1.4, 1.4)];
+            loops.push(ring(&corners, vec![1.0; 5], vec![0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 4.0], 1));
+        }
+        Face::derive(&surface, &loops).expect("a face")
+    }
+
+    #[test]
+    fn closed_edges_that_start_elsewhere_and_lie_apart_are_one() {
+        // About 0.001 apart where the two start, 0.004 at most, the starts 0.004 from each other.
+        for (lean, start) in [(-1e-3, 0.004), (-1e-3, 1.0), (0.0, 0.5)] {
+            let faces = [round(0.0, 0.0, false), round(lean, start, true)];
+            let mesh = meshed(&faces, 1e-2);
+            let open = open(&mesh).iter().filter(|[a, _]| a.truncate().length() < 1.01).count();
+            assert_eq!(open, 0, "{lean} {start}");
+        }
     }
 
     #[test]

@@ -114,7 +114,7 @@ impl Refinement<'_> {
             None => {
                 let at = self.ground.tangents(uv);
                 let inward = || normal(self.ground, uv, &self.domain, 1e-6 * self.domain.size());
-                (at.point, upright(&at).unwrap_or_else(inward))
+                (at.point, upright(&at, self.domain.size()).unwrap_or_else(inward))
             }
         };
         vertices.gaps.push(0.0);

@@ -106,6 +106,18 @@ impl<'a> Tessellator<'a> {
         &self.outline
     }
 
+    /// Starts a chain that is one closed run at `s` of it.
+    pub fn start_at(&mut self, chain: usize, s: f64) {
+        if let Some([run]) = self.outline.chains.get_mut(chain).map(Vec::as_mut_slice)
+            && s > 0.0
+            && s < run.range()
+        {
+            let (mut turned, _) = run.part(s, run.range());
+            turned.pieces.extend(run.part(0.0, s).0.pieces);
+            *run = turned;
+        }
+    }
+
     /// Whether triangles leave enough of the tolerance to chords that pass through their curves: on planes, and where straight
     /// lines run along one of the parameters, all the way at one normal.
     pub fn leaves_room(&self) -> bool {
@@ -508,7 +520,11 @@ fn finish(vertices: Vertices, triangles: Vec<[u32; 3]>, loops: Vec<Vec<u32>>, qu
         let [a, b, c] = t.map(at);
         a != b && b != c && c != a
     };
+    let all = triangles.len();
     let mut triangles: Vec<[u32; 3]> = triangles.into_iter().filter(solid).collect();
+    if triangles.len() < all {
+        take_flaps_out(&mut triangles, at);
+    }
     triangles.sort_unstable();
     let mut used = vec![false; vertices.uvs.len()];
     triangles.iter().flatten().for_each(|v| used[*v as usize] = true);
@@ -527,10 +543,53 @@ fn finish(vertices: Vertices, triangles: Vec<[u32; 3]>, loops: Vec<Vec<u32>>, qu
     mesh
 }
 
+/// Takes out pairs of triangles that are each other's back. Where all of a pole is one vertex, what is left of the triangles
+/// round a vertex beside it may be such a pair: a flap, on an edge that others have already.
+fn take_flaps_out(triangles: &mut Vec<[u32; 3]>, at: impl Fn(u32) -> DVec3) {
+    // The corners in an order of their own, and whether that is the other way round.
+    let named = |t: &[u32; 3]| {
+        let mut key = t.map(|v| (at(v) + 0.0).to_array().map(f64::to_bits));
+        let first = (0..3).min_by_key(|k| key[*k]).unwrap_or(0);
+        key.rotate_left(first);
+        let turned = key[1] > key[2];
+        if turned {
+            key.swap(1, 2);
+        }
+        (key, turned)
+    };
+    let mut sides: Vec<_> = triangles.iter().enumerate().map(|(k, t)| (named(t), k)).collect();
+    sides.sort_unstable();
+    let mut gone = vec![false; triangles.len()];
+    for pair in sides.chunk_by(|a, b| a.0.0 == b.0.0).filter(|same| same.len() == 2 && same[0].0 != same[1].0)
+    {
+        pair.iter().for_each(|(_, k)| gone[*k] = true);
+    }
+    let mut k = 0;
+    triangles.retain(|_| {
+        k += 1;
+        !gone[k - 1]
+    });
+}
+
 /// Positions of a boundary as closed polygons.
 pub fn polygons(boundary: &Boundary) -> Vec<Vec<DVec3>> {
     let ring = |runs: &Vec<Vec<EdgeSample>>| {
         runs.iter().flat_map(|r| r[..r.len().saturating_sub(1)].iter().map(|s| s.point)).collect()
     };
     boundary.iter().map(ring).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flap_on_a_pole_that_is_one_vertex_is_taken_out() {
+        // 0 and 1 are the pole, 2 to 4 stand round it, 5 between the two of the pole and 3.
+        let pole = DVec3::ZERO;
+        let places = [pole, pole, DVec3::X, DVec3::new(0.7, 0.7, 0.0), DVec3::Y, DVec3::new(0.3, 0.3, 0.0)];
+        let mut triangles = vec![[0, 2, 3], [0, 3, 5], [1, 5, 3], [1, 3, 4]];
+        take_flaps_out(&mut triangles, |v| places[v as usize]);
+        assert_eq!(triangles, [[0, 2, 3], [1, 3, 4]]);
+    }
 }

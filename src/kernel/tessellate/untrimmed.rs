@@ -61,7 +61,8 @@ pub fn untrimmed(face: &Face, options: &TessellationOptions) -> Result<Untrimmed
     for uv in &mesh.uvs {
         let at = points.tangents(*uv);
         mesh.positions.push(at.point);
-        let normal = upright(&at).unwrap_or_else(|| normal(&ground, *uv, &face.domain, slightly_in));
+        let normal = upright(&at, face.domain.size())
+            .unwrap_or_else(|| normal(&ground, *uv, &face.domain, slightly_in));
         mesh.normals.push(normal);
     }
     Ok(mesh)
@@ -69,7 +70,7 @@ pub fn untrimmed(face: &Face, options: &TessellationOptions) -> Result<Untrimmed
 
 /// The unit normal at `uv`; where there is none (a pole), that of a point slightly inside.
 pub(super) fn normal(ground: &Ground, uv: DVec2, domain: &UvRect, slightly: DVec2) -> DVec3 {
-    if let Some(normal) = upright(&ground.tangents(uv)) {
+    if let Some(normal) = upright(&ground.tangents(uv), domain.size()) {
         return normal;
     }
     let middle = 0.5 * (domain.min + domain.max);
@@ -86,11 +87,15 @@ pub(super) fn normal(ground: &Ground, uv: DVec2, domain: &UvRect, slightly: DVec
     DVec3::Z
 }
 
-/// The unit normal, where derivatives give one.
-pub(super) fn upright(at: &Tangents) -> Option<DVec3> {
+/// The unit normal, where derivatives give one: not where one of them, over the `size` of the domain, is as good as nothing
+/// (a pole as files have it, with rounding of any direction).
+pub(super) fn upright(at: &Tangents, size: DVec2) -> Option<DVec3> {
+    /// What is this part of the other is nothing.
+    const ROUNDING: f64 = 1e-7;
     let cross = at.du.cross(at.dv);
-    (cross.length() > 1e-9 * at.du.length() * at.dv.length() && cross.length() > 0.0)
-        .then(|| cross.normalize())
+    let (along, across) = (at.du.length(), at.dv.length());
+    let (u, v) = (along * size.x, across * size.y);
+    (cross.length() > 1e-9 * along * across && u.min(v) > ROUNDING * u.max(v)).then(|| cross.normalize())
 }
 
 /// Corners of all cells, found along lines of constant u and of constant v.
@@ -168,4 +173,19 @@ fn triangulate(polygon: &[u32], uvs: &[DVec2], triangles: &mut Vec<[u32; 3]>) {
         rest.remove(best);
     }
     triangles.push([rest[0], rest[1], rest[2]]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pole_with_rounding_has_the_normal_of_its_surroundings() {
+        let (du, dv) = (DVec3::new(0.0, 3e-16, 2e-16), DVec3::X);
+        let at = Tangents { point: DVec3::ZERO, du, dv };
+        assert_eq!(upright(&at, DVec2::new(std::f64::consts::TAU, 1.0)), None);
+        // As short for its parameter, but that goes far.
+        let normal = upright(&at, DVec2::new(1e16, 1.0)).expect("a normal");
+        assert!((normal - du.cross(dv).normalize()).length() < 1e-15);
+    }
 }
