@@ -4,6 +4,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::time::Instant;
 
+use glam::DVec3;
 use serde::Serialize;
 
 use super::arguments::TessellateArguments;
@@ -69,6 +70,8 @@ pub struct Unproved {
     pub triangles: usize,
     /// Largest distance between the face and its mesh that was found at samples.
     pub measured: f64,
+    /// Largest distance by which vertices of the face were moved to close gaps.
+    pub gap: f64,
 }
 
 /// Faces without a proof that are listed; JSON has all.
@@ -76,6 +79,10 @@ const LISTED: usize = 20;
 /// Samples along an edge when the error is measured, and of one face at most.
 const DENSITY: usize = 3;
 const SAMPLES: usize = 20_000;
+/// Gaps of more than this part of the tolerance are told as the reason for errors beyond it.
+const GAPPING: f64 = 0.5;
+/// Rounding of more than this part of the tolerance is told.
+const ROUNDING: f64 = 0.05;
 /// Smaller tolerances than this part of the model's size drown in rounding.
 const FINEST: f64 = 1e-9;
 
@@ -121,7 +128,7 @@ pub fn run(arguments: &TessellateArguments) -> Result<(), Failure> {
     for (face, reason) in &statistics.left_out {
         eprintln!("hairline: note: {}: face {face} is left out: {reason}", arguments.file.display());
     }
-    write(&model, &meshed, format, &arguments.output)?;
+    write(&model, &meshed, format, options.tolerance, &arguments.output)?;
     tell(&statistics, arguments.json).map_err(|e| Failure::stdout(&e))
 }
 
@@ -170,7 +177,7 @@ fn options(
         return Err(Failure::Usage {
             reason: format!(
                 "--error {} is below what numbers can tell apart on a model of {}; use {} or more",
-                arguments.error,
+                given(arguments.error),
                 Length { mm: size * unit },
                 Length { mm: FINEST * size * unit }
             ),
@@ -194,6 +201,13 @@ fn options(
         triangle_limit: if arguments.yes { TessellationOptions::TRIANGLE_LIMIT } else { arguments.limit },
         ..TessellationOptions::new(tolerance)
     })
+}
+
+/// A length that was asked for, also where it is smaller than lengths are told.
+fn given(length: Length) -> String {
+    /// Smaller ones are shown as nothing.
+    const SHOWN: f64 = 1e-11;
+    if length.mm < SHOWN { format!("{:e} mm", length.mm) } else { length.to_string() }
 }
 
 fn refusal(error: &TessellateError, arguments: &TessellateArguments) -> Failure {
@@ -225,6 +239,7 @@ pub fn statistics(
             face: k + 1,
             triangles,
             measured,
+            gap: m.quality.gap,
         })
     };
     let meshed = mesh.faces.iter().enumerate().filter_map(|(k, m)| Some((k, m.as_ref().ok()?)));
@@ -246,7 +261,13 @@ pub fn statistics(
     }
 }
 
-fn write(model: &ModelRecord, meshed: &ModelMesh, format: Format, path: &Path) -> Result<(), Failure> {
+fn write(
+    model: &ModelRecord,
+    meshed: &ModelMesh,
+    format: Format,
+    tolerance: f64,
+    path: &Path,
+) -> Result<(), Failure> {
     let names: Vec<String> = model
         .faces
         .iter()
@@ -266,6 +287,22 @@ fn write(model: &ModelRecord, meshed: &ModelMesh, format: Format, path: &Path) -
             Some(Group { name, part: part(face), colour, mesh, reversed })
         })
         .collect();
+    let lost = match format {
+        Format::Stl => mesh::single_loss(&groups, DVec3::ZERO),
+        Format::Glb => mesh::single_loss(&groups, mesh::glb_origin(&groups)),
+        // These hold double precision.
+        Format::Obj | Format::Ply => 0.0,
+    };
+    if lost > ROUNDING * tolerance {
+        eprintln!(
+            "hairline: note: {}: the format holds single precision, which moves vertices of this model by up to {}, {:.0} % of \
+             the tolerance; .obj and .ply keep them{}",
+            path.display(),
+            Length { mm: lost * model.unit.millimetres },
+            100.0 * lost / tolerance,
+            if format == Format::Stl { ", .glb counts from the model's middle" } else { "" }
+        );
+    }
     let too_much = |e: io::Error| Failure::Work { reason: format!("{}: {e}", path.display()) };
     let bytes = match format {
         Format::Glb => mesh::glb(&groups, &model.name, 1e-3 * model.unit.millimetres).map_err(too_much)?,
@@ -303,11 +340,15 @@ fn tell(statistics: &Statistics, as_json: bool) -> io::Result<()> {
         m.mesh_to_surface, m.surface_to_mesh, m.samples
     )?;
     for doubt in s.unproved.iter().take(LISTED) {
-        writeln!(
-            out,
-            "            face {}: {} triangles not proved to keep the tolerance, {:.6} {unit} measured",
-            doubt.face, doubt.triangles, doubt.measured
-        )?;
+        let why = match (doubt.triangles, doubt.gap > GAPPING * s.tolerance) {
+            (0, true) => {
+                format!("its edges lie {:.6} {unit} off its neighbours' in the file", 2.0 * doubt.gap)
+            }
+            (0, false) => "beyond the tolerance".into(),
+            (1, _) => "1 triangle not proved to keep the tolerance".into(),
+            (many, _) => format!("{many} triangles not proved to keep the tolerance"),
+        };
+        writeln!(out, "            face {}: {:.6} {unit} measured, {why}", doubt.face, doubt.measured)?;
     }
     if s.unproved.len() > LISTED {
         writeln!(out, "            and {} more faces (--json lists all)", s.unproved.len() - LISTED)?;

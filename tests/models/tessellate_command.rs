@@ -67,7 +67,8 @@ fn useless_tolerances_and_limits_are_refused_or_noted() {
         NOT_WRITTEN,
         "allow more with --limit N or --yes",
     );
-    fails(&["tessellate", &cube, "--error", "-1mm", "-o", &out], BAD_INPUT, "--error");
+    fails(&["tessellate", &cube, "--error", "1e-20mm", "-o", &out], BAD_INPUT, "--error 1e-20 mm is below");
+    fails(&["tessellate", &cube, "--error", "-1mm", "-o", &out], BAD_INPUT, "`-1mm` is not positive");
     assert!(!path.exists());
     let (found, _, _) = figures(&cube, &["--error", "1um", "--limit", "50", "--yes"]);
     assert!(found["triangles"].as_u64() > Some(50));

@@ -56,8 +56,8 @@ pub fn glb(groups: &[Group], name: &str, metres: f64) -> io::Result<Vec<u8>> {
     file.finish()
 }
 
-/// Where positions are counted from.
-fn origin(groups: &[Group]) -> DVec3 {
+/// Where positions are counted from, units of the model.
+pub fn origin(groups: &[Group]) -> DVec3 {
     let all = Bounds::of(groups.iter().flat_map(|g| g.mesh.positions.iter().copied()));
     if !all.is_empty() && all.centre().length() > FAR * all.diagonal() { all.centre() } else { DVec3::ZERO }
 }

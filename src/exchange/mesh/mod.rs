@@ -10,7 +10,7 @@ mod obj;
 mod ply;
 mod stl;
 
-pub use glb::glb;
+pub use glb::{glb, origin as glb_origin};
 pub use obj::{materials, obj};
 pub use ply::ply;
 pub use stl::stl;
@@ -58,6 +58,12 @@ impl Group<'_> {
         let sign = if self.reversed { -1.0 } else { 1.0 };
         self.mesh.normals.iter().map(move |n| *n * sign)
     }
+}
+
+/// How far single precision moves a vertex at most, counted from `origin`; units of the model.
+pub fn single_loss(groups: &[Group], origin: DVec3) -> f64 {
+    let positions = groups.iter().flat_map(|g| &g.mesh.positions).map(|p| *p - origin);
+    positions.map(|p| p.as_vec3().as_dvec3().distance(p)).fold(0.0, f64::max)
 }
 
 /// Colour as eight bits per channel, as screens show it.
@@ -152,6 +158,21 @@ mod tests {
         assert_eq!(json["accessors"][3]["count"], 3);
         let text = String::from_utf8(obj(&groups, None)).unwrap();
         assert_eq!(text.lines().filter(|l| l.starts_with("f ")).count(), 2);
+    }
+
+    #[test]
+    fn what_single_precision_loses_is_known() {
+        let mut faces = faces();
+        assert_eq!(single_loss(&groups(&faces), DVec3::ZERO), 0.0);
+        // Steps of a quarter of a millimetre out there.
+        let far = DVec3::new(3e6, 0.0, 0.0);
+        for p in faces.iter_mut().flat_map(|f| &mut f.positions) {
+            *p = far + *p * 0.1;
+        }
+        let groups = groups(&faces);
+        let lost = single_loss(&groups, DVec3::ZERO);
+        assert!((lost - 0.1).abs() < 1e-9, "{lost}");
+        assert!(single_loss(&groups, glb_origin(&groups)) < 1e-8);
     }
 
     #[test]
