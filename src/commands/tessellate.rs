@@ -16,7 +16,7 @@ use crate::inspect::Length;
 use crate::kernel::face::Face;
 use crate::kernel::tessellate::{FaceMesh, TessellateError, TessellationOptions};
 use crate::kernel::view::Bounds;
-use crate::meshing::{Distance, ModelMesh, Work, measure_each, mesh_edges, mesh_faces, orientations};
+use crate::meshing::{Distance, ModelMesh, Work, finest, measure_each, mesh_edges, mesh_faces, orientations};
 use crate::scene::records::{FaceRecord, ModelRecord};
 
 /// A format that can be written.
@@ -178,8 +178,18 @@ fn options(
             reason: format!(
                 "--error {} is below what numbers can tell apart on a model of {}; use {} or more",
                 given(arguments.error),
-                Length { mm: size * unit },
-                Length { mm: FINEST * size * unit }
+                given(Length { mm: size * unit }),
+                given(Length { mm: FINEST * size * unit })
+            ),
+        });
+    }
+    let least = finest(&bounds);
+    if tolerance < least {
+        return Err(Failure::Usage {
+            reason: format!(
+                "--error {} is below what numbers can tell apart as far from the origin as this model lies; use {} or more",
+                given(arguments.error),
+                Length { mm: least * unit }
             ),
         });
     }
@@ -188,8 +198,8 @@ fn options(
         eprintln!(
             "hairline: note: --error {} is large for a model of {}; {} is used",
             arguments.error,
-            Length { mm: size * unit },
-            Length { mm: largest * unit }
+            given(Length { mm: size * unit }),
+            given(Length { mm: largest * unit })
         );
         tolerance = largest;
     }

@@ -20,5 +20,5 @@ mod stretches;
 pub use deviation::{deviations, face_deviations};
 pub use edges::{MeshEdge, mesh_edges};
 pub use measure::{Distance, measure, measure_each, measure_face};
-pub use model_mesh::{ModelMesh, Work, mesh_faces, remesh_faces};
+pub use model_mesh::{ModelMesh, Work, finest, mesh_faces, remesh_faces};
 pub use orient::orientations;

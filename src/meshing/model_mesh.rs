@@ -75,6 +75,13 @@ const WELL_MADE: f64 = 1e-6;
 /// Chords within this part of the tolerance are points.
 const POINT: f64 = 1e-3;
 
+/// The least tolerance that makes sense for a model within `bounds`: numbers there are that far apart, times a few.
+pub fn finest(bounds: &Bounds) -> f64 {
+    const STEPS: f64 = 16.0;
+    let far = bounds.min.abs().max(bounds.max.abs()).max_element();
+    if bounds.is_empty() || !far.is_finite() { 0.0 } else { STEPS * f64::EPSILON * far }
+}
+
 /// Meshes `faces` (`None` for those that could not be derived) with common vertices.
 ///
 /// # Errors
@@ -137,6 +144,10 @@ fn remesh(
     (work.progress)(0.1);
     let bounds = faces.iter().flatten().fold(Bounds::EMPTY, |b, f| b.union(f.bounds));
     let size = bounds.diagonal();
+    let finest = finest(&bounds);
+    if options.tolerance < finest {
+        return Err(TessellateError::TooFine { tolerance: options.tolerance, finest });
+    }
     let farthest = FARTHEST * size;
     let reach = (REACH * options.tolerance).min(farthest).max(NEAREST * size);
     starts::meet(&mut prepared, reach, farthest);
@@ -259,7 +270,7 @@ fn remesh(
     let faces = meshes
         .into_iter()
         .map(|m| m.unwrap_or(Err(TessellateError::Empty)))
-        .map(|m| m.and_then(|m| if m.triangles.is_empty() { Err(TessellateError::Narrow) } else { Ok(m) }))
+        .map(|m| m.and_then(|m| if m.area() > 0.0 { Ok(m) } else { Err(TessellateError::Narrow) }))
         .collect();
     Ok(ModelMesh { faces, boundaries, seams: seams.seams.len() })
 }

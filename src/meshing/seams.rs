@@ -363,7 +363,7 @@ mod tests {
     use super::*;
     use crate::kernel::face::Face;
     use crate::kernel::nurbs::{KnotVector, NurbsCurve2, NurbsSurface};
-    use crate::kernel::tessellate::TessellationOptions;
+    use crate::kernel::tessellate::{TessellateError, TessellationOptions};
     use crate::kernel::trim::loop_record::{LoopRecord, LoopRole};
     use crate::meshing::{ModelMesh, Work, measure_face, mesh_edges, mesh_faces};
     use glam::DVec2;
@@ -452,6 +452,18 @@ mod tests {
             let open = open(&mesh).iter().filter(|[a, _]| a.truncate().length() < 1.01).count();
             assert_eq!(open, 0, "{lean} {start}");
         }
+    }
+
+    #[test]
+    fn tolerances_below_what_numbers_tell_apart_are_refused_and_lines_have_no_triangles() {
+        let at = |x: f64, y: f64| DVec3::new(1e15 + x, y, 0.0);
+        let far = flat([at(0.0, 0.0), at(0.0, 10.0), at(10.0, 0.0), at(10.0, 10.0)]);
+        let options = TessellationOptions::new(0.01);
+        let refused = mesh_faces(&[Some(&far)], &options, &Work::QUIET);
+        assert!(matches!(refused, Err(TessellateError::TooFine { .. })));
+        let line = flat([0.0, 1.0, 1.0, 2.0].map(|x| DVec3::new(x, 0.0, 0.0)));
+        let mesh = meshed(&[line], 0.01);
+        assert_eq!(mesh.faces[0], Err(TessellateError::Narrow));
     }
 
     #[test]

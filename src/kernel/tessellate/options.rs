@@ -121,9 +121,19 @@ pub enum TessellateError {
     /// No part of the surface lies inside the trim loops.
     #[error("nothing of the surface lies inside the trim loops")]
     Empty,
-    /// All of its edges meet within the tolerance.
-    #[error("it is narrower than the tolerance: its neighbours meet where it was")]
+    /// All of its edges meet within the tolerance, or all of it lies inside an even number of loops.
+    #[error("nothing is left of it: it is narrower than the tolerance or its loops cancel out")]
     Narrow,
+    /// Numbers as far from the origin as the model is are farther apart than the tolerance.
+    #[error(
+        "{tolerance:e} is below what numbers can tell apart as far from the origin as this model lies; use {finest:e} or more"
+    )]
+    TooFine {
+        /// The tolerance asked for, model units.
+        tolerance: f64,
+        /// The least that makes sense, model units.
+        finest: f64,
+    },
     /// Points of the surface or of its boundary are not finite.
     #[error("the surface has points that are not finite numbers, near u {u}, v {v}")]
     NotFinite {
