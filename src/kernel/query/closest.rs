@@ -6,6 +6,8 @@
 //! borders) for a better one. A part of a surface on which that polynomial is convex holds no other minimum than the
 //! one found, and is done with. What is returned is closest up to [`ACCURACY`] of the size of the shape.
 
+use std::collections::VecDeque;
+
 use glam::{DMat2, DVec2, DVec3};
 
 use crate::kernel::bezier::bernstein::binomial_row;
@@ -17,6 +19,8 @@ use crate::kernel::vector::Vector;
 pub const ACCURACY: f64 = 1e-12;
 /// Parts looked at; reached only when many points are equally close (a sphere's centre).
 const BUDGET: usize = 4_000;
+/// Parts of one patch that are looked at before the next patch is.
+const AT_ONCE: usize = 64;
 
 /// The closest point of a curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +53,7 @@ pub fn closest_on_curve<V: Vector>(
     target: V,
 ) -> Option<ClosestOnCurve<V>> {
     let mut best: Option<ClosestOnCurve<V>> = None;
-    let mut parts = std::collections::VecDeque::new();
+    let mut parts = VecDeque::new();
     for (curve, interval) in pieces {
         offer(&mut best, interval.0, curve.start(), target);
         offer(&mut best, interval.1, curve.end(), target);
@@ -93,12 +97,18 @@ pub fn closer_on_surface(patches: &[BezierPatch], target: DVec3, known: f64) -> 
         order.push((away, number));
     }
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut search = Search { target, size, limit: known, best: None, left: BUDGET };
+    let mut search = Search { target, size, limit: known, best: None, rest: VecDeque::new() };
     for (away, number) in order {
         if away > search.worth() {
             break;
         }
         search.patch(number, &patches[number]);
+    }
+    // What took long is left for last, so that no patch keeps others from being looked at.
+    for _ in 0..BUDGET {
+        let Some((number, part)) = search.rest.pop_front() else { break };
+        let quarters = search.part(number, &part);
+        search.rest.extend(quarters.into_iter().flatten().map(|quarter| (number, quarter)));
     }
     search.best
 }
@@ -111,8 +121,8 @@ struct Search {
     /// Distance of the best point known.
     limit: f64,
     best: Option<ClosestOnSurface>,
-    /// Parts that may still be looked at.
-    left: usize,
+    /// Parts of patches that were not done with at once.
+    rest: VecDeque<(usize, BezierPatch)>,
 }
 
 impl Search {
@@ -133,30 +143,30 @@ impl Search {
         for local in [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE, DVec2::splat(0.5)] {
             self.offer(number, patch.native(local), patch.point(local.x, local.y));
         }
-        let mut parts = std::collections::VecDeque::from([patch.clone()]);
-        while let Some(part) = parts.pop_front() {
-            if self.left == 0 {
-                break;
-            }
-            self.left -= 1;
-            let bounds = part.bounds();
-            let from_box = (self.target.clamp(bounds.min, bounds.max) - self.target).length();
-            if self.worth() <= 0.0 || from_box > self.worth() {
-                continue;
-            }
-            let coefficients = distance_coefficients(&part, self.target);
-            if cannot_beat(&coefficients, self.worth()) {
-                continue;
-            }
-            let foot = descend(&part, self.target);
-            self.offer(number, part.native(foot.local), foot.point);
-            let middle = part.native(DVec2::splat(0.5));
-            if (middle.cmpgt(part.uv_min) & middle.cmplt(part.uv_max)).all()
-                && !self.is_settled(&part, &coefficients, &foot)
-            {
-                parts.extend(part.quarters());
-            }
+        let mut parts = VecDeque::from([patch.clone()]);
+        for _ in 0..AT_ONCE {
+            let Some(part) = parts.pop_front() else { return };
+            parts.extend(self.part(number, &part).into_iter().flatten());
         }
+        self.rest.extend(parts.into_iter().map(|part| (number, part)));
+    }
+
+    /// Looks at a part of a patch; gives its quarters where they may hold a nearer point.
+    fn part(&mut self, number: usize, part: &BezierPatch) -> Option<[BezierPatch; 4]> {
+        let bounds = part.bounds();
+        let from_box = (self.target.clamp(bounds.min, bounds.max) - self.target).length();
+        if self.worth() <= 0.0 || from_box > self.worth() {
+            return None;
+        }
+        let coefficients = distance_coefficients(part, self.target);
+        if cannot_beat(&coefficients, self.worth()) {
+            return None;
+        }
+        let foot = descend(part, self.target);
+        self.offer(number, part.native(foot.local), foot.point);
+        let middle = part.native(DVec2::splat(0.5));
+        let divisible = (middle.cmpgt(part.uv_min) & middle.cmplt(part.uv_max)).all();
+        (divisible && !self.is_settled(part, &coefficients, &foot)).then(|| part.quarters())
     }
 
     /// Whether no point of `part` is nearer than the one that Newton's method found, up to the accuracy: the polynomial that
