@@ -61,6 +61,9 @@ const ROUNDS: usize = 8;
 const MESH_ROUNDS: usize = 10;
 /// Steps that a seam's share of the tolerance is shortened by in one round at most.
 const MOST_STEPS: i32 = 3;
+/// Chords of a seam at most, for each that it had at first, and besides: what these do not mend no more of them will.
+const GROWTH: usize = 50;
+const FEW: usize = 200;
 /// More triangles than this part of the limit that are to be expected are too many.
 const SURELY: f64 = 1.25;
 /// Share of the tolerance within which outlines meet.
@@ -283,6 +286,8 @@ struct Division<'s, 'f, 'a> {
     gaps: Vec<f64>,
     /// Samples of each seam on its first stretch.
     samples: Vec<Vec<EdgeSample>>,
+    /// Samples that each seam may have.
+    most: Vec<usize>,
     /// Part of the tolerance that each seam is divided for.
     parts: Vec<f64>,
     /// Seams whose vertices lie on their curves, because others would cross.
@@ -314,9 +319,11 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
             // Stretches that are points have no triangles.
             (own == 1 || chords.fetch_add(own, Ordering::Relaxed) + own <= limit).then_some(samples)
         };
-        let samples = (0..seams.seams.len()).into_par_iter().map(divide).collect::<Option<_>>()?;
+        let samples: Vec<Vec<EdgeSample>> =
+            (0..seams.seams.len()).into_par_iter().map(divide).collect::<Option<_>>()?;
+        let most = samples.iter().map(|samples| GROWTH * samples.len() + FEW).collect();
         let parts = vec![1.0; seams.seams.len()];
-        Some(Self { seams, faces, gaps, samples, parts, plain, stretches })
+        Some(Self { seams, faces, gaps, samples, most, parts, plain, stretches })
     }
 
     /// The chords of a face.
@@ -388,7 +395,7 @@ impl<'s, 'f, 'a> Division<'s, 'f, 'a> {
                     middle.distance(a.point).max(middle.distance(b.point)) > POINT * face.tolerance()
                 });
             }
-            if chords.is_empty() {
+            if chords.is_empty() || self.samples[seam].len() > self.most[seam] {
                 continue;
             }
             faces.extend(

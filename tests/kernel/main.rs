@@ -10,5 +10,6 @@ mod loops;
 mod operations;
 mod parity;
 mod raycast;
+mod runaway;
 mod splines;
 mod zoo;

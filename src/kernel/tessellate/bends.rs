@@ -4,6 +4,8 @@ use glam::DVec2;
 
 use super::balance::{BALANCE, Bend};
 use super::outline::Ground;
+use super::places::FAST;
+use crate::kernel::nurbs::surface::SurfaceJet;
 use crate::kernel::trim::UvRect;
 
 /// Samples in each direction.
@@ -30,11 +32,32 @@ impl Bends {
         let mut found =
             Self { bounds: *bounds, bends: [DVec2::ZERO; COUNT], twist: 0.0, depths: [1.0; COUNT] };
         let mut speed = DVec2::ZERO;
-        for k in 0..COUNT {
-            let share = DVec2::new((k / SAMPLES) as f64 + 0.5, (k % SAMPLES) as f64 + 0.5) / SAMPLES as f64;
-            let Some(jet) = ground.jet(bounds.native(share)) else { continue };
-            speed += DVec2::new(jet.du.length(), jet.dv.length()) / COUNT as f64;
-            let Some(bend) = Bend::new(&jet) else { continue };
+        let jets: Vec<_> = (0..COUNT)
+            .map(|k| {
+                let share =
+                    DVec2::new((k / SAMPLES) as f64 + 0.5, (k % SAMPLES) as f64 + 0.5) / SAMPLES as f64;
+                ground.jet(bounds.native(share))
+            })
+            .collect();
+        let speeds = [0, 1].map(|axis| {
+            let of = |jet: &SurfaceJet| if axis == 0 { jet.du.length() } else { jet.dv.length() };
+            jets.iter().map(|jet| jet.as_ref().map_or(0.0, of)).collect::<Vec<_>>()
+        });
+        // Rows that are run through in no time say nothing of the rest.
+        let fastest = speeds.each_ref().map(|all| usual(all));
+        let fast = |k: usize| {
+            (0..SAMPLES).any(|i| {
+                let (beside_u, beside_v) = (k / SAMPLES * SAMPLES + i, i * SAMPLES + k % SAMPLES);
+                speeds[0][beside_u] > fastest[0] || speeds[1][beside_v] > fastest[1]
+            })
+        };
+        for (k, jet) in jets.iter().enumerate() {
+            let Some(jet) = jet else { continue };
+            if fast(k) {
+                continue;
+            }
+            speed += DVec2::new(speeds[0][k], speeds[1][k]) / COUNT as f64;
+            let Some(bend) = Bend::new(jet) else { continue };
             found.bends[k] = DVec2::new(bend.second.x.abs(), bend.second.z.abs());
             found.twist = found.twist.max(bend.second.y.abs());
             if balanced && bend.side != 0.0 {
@@ -56,4 +79,17 @@ impl Bends {
         let k = of(share.x) * SAMPLES + of(share.y);
         self.bends[k] / self.depths[k]
     }
+}
+
+/// What is not much faster than most of some speeds.
+fn usual(speeds: &[f64]) -> f64 {
+    let (low, high) = speeds.iter().fold((f64::INFINITY, 0.0f64), |r, x| (r.0.min(*x), r.1.max(*x)));
+    if high <= FAST * low {
+        return high;
+    }
+    let mut sorted = speeds.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let middle = sorted[sorted.len() / 2];
+    // Most of it may stand still.
+    if middle > 0.0 { FAST * middle } else { high }
 }

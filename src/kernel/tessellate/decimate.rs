@@ -99,8 +99,8 @@ fn target(
     let count = ring.len();
     let made = |onto: usize| (1..count - 1).map(move |i| [onto, (onto + i) % count, (onto + i + 1) % count]);
     let height = |t: [usize; 3]| {
-        let [a, b, c] = t.map(|i| vertices.uvs[ring[i] as usize] * refinement.scale);
-        let area = (b - a).perp_dot(c - a) * (refinement.scale.x * refinement.scale.y).signum();
+        let [a, b, c] = t.map(|i| refinement.places.of(vertices.uvs[ring[i] as usize]));
+        let area = (b - a).perp_dot(c - a);
         area / (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared())
     };
     let mut choices: Vec<(f64, usize)> = (0..count)

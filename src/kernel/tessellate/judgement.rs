@@ -42,6 +42,8 @@ pub(super) struct Found {
     pub(super) crease: Option<(usize, f64)>,
     /// How much nearer to the surface its corners should be.
     pub(super) lower: [f64; 3],
+    /// Whether it is divided for looking away from the surface.
+    pub(super) folded: bool,
 }
 
 impl Refinement<'_> {
@@ -120,7 +122,8 @@ impl Refinement<'_> {
         let excess = worst.abs() - LOWERED * allowed;
         let lower = corners.map(|c| if high && c * worst > 0.0 { excess } else { 0.0 });
         let away = normal.dot(normals[0] + normals[1] + normals[2]) < 0.0;
-        if solid && away && cross.length() > FOLDED * allowed * longest.sqrt() {
+        let far = cross.length() > FOLDED * allowed * longest.sqrt();
+        if solid && away && far && self.patience.has_folds() {
             // Folded over: the surface runs unevenly over its parameters here.
             return Estimate {
                 error: error.max(2.0 * allowed),
@@ -142,16 +145,16 @@ impl Refinement<'_> {
     ) -> Found {
         let Estimate { error, shares, sideways, normal, longest, folded, lower } = *estimate;
         let Some(flatness) = self.flatness.filter(|_| !folded) else {
-            return Found { error, shares, crease: None, lower };
+            return Found { error, shares, crease: None, lower, folded };
         };
         let uv = triangle.map(|n| vertices.uvs[n as usize]);
         let crease = if error > 0.25 * allowed { flatness.crossed(&uv, 0.25 * allowed) } else { None };
         // Beside a triangle smaller than the tolerance nothing is far.
         if !(error <= allowed) || longest < 0.1 * allowed {
-            return Found { error, shares, crease, lower };
+            return Found { error, shares, crease, lower, folded };
         }
         let start = vertices.upright[triangle[0] as usize];
         let proven = flatness.triangle(uv, (start, normal), allowed - sideways) + sideways;
-        Found { error: proven.max(error), shares, crease, lower }
+        Found { error: proven.max(error), shares, crease, lower, folded }
     }
 }

@@ -29,6 +29,8 @@ pub mod mesh;
 mod nets;
 pub mod options;
 pub mod outline;
+pub mod patience;
+pub mod places;
 pub mod placing;
 pub mod plane;
 pub mod refine;

@@ -317,7 +317,7 @@ impl Outline {
                     cut_and_lift(curve, ground, precision, &mut run.pieces);
                 }
             }
-            runs.iter_mut().for_each(|run| drop_crumbs(run, face.domain.size()));
+            runs.iter_mut().for_each(|run| drop_crumbs(run, face.domain.size(), precision));
             runs.retain(|run| !run.pieces.is_empty());
             runs
         };
@@ -347,13 +347,20 @@ fn turns(run: &Run, next: &BezierCurve2, domain: DVec2) -> bool {
     way(&last.uv).dot(way(next)) < 0.999
 }
 
-/// Takes out pieces that are rounding: they would stall whoever walks along the run. Their neighbours close up.
-fn drop_crumbs(run: &mut Run, domain: DVec2) {
-    /// Part of the domain that is rounding.
+/// Takes out pieces that are rounding: they would stall whoever walks along the run. Their neighbours close up, which must be
+/// so long that this does not matter. What goes farther than `reach` in space is none, however little of the parameters it
+/// takes.
+fn drop_crumbs(run: &mut Run, domain: DVec2, reach: f64) {
+    /// Part of the domain, and of a neighbour, that is rounding.
     const CRUMB: f64 = 1e-9;
-    let is_crumb = |piece: &LiftedPiece| {
+    const OF_NEIGHBOUR: f64 = 1e-3;
+    let size = |piece: &LiftedPiece| {
         let (low, high) = piece.uv.hull();
-        ((high - low) / domain).max_element() < CRUMB
+        ((high - low) / domain).max_element()
+    };
+    let is_crumb = |piece: &LiftedPiece| {
+        let far = || piece.space.points.iter().any(|p| p.distance(piece.space.start()) > reach);
+        size(piece) < CRUMB && !far()
     };
     if !run.pieces.iter().any(is_crumb) {
         return;
@@ -363,10 +370,16 @@ fn drop_crumbs(run: &mut Run, domain: DVec2) {
     for mut piece in run.pieces.drain(..) {
         if is_crumb(&piece) {
             match kept.last_mut() {
-                Some(before) => set_end(before, piece.uv.end(), piece.space.end()),
-                None => start = start.or(Some((piece.uv.start(), piece.space.start()))),
+                Some(before) if size(&piece) <= OF_NEIGHBOUR * size(before) => {
+                    set_end(before, piece.uv.end(), piece.space.end());
+                    continue;
+                }
+                Some(_) => {}
+                None => {
+                    start = start.or(Some((piece.uv.start(), piece.space.start())));
+                    continue;
+                }
             }
-            continue;
         }
         if let Some((uv, point)) = start.take() {
             piece.uv.points[0] = uv;
@@ -396,7 +409,8 @@ fn cut_and_lift(curve: BezierCurve2, ground: &Ground, precision: f64, pieces: &m
     }
     cuts.push(1.0);
     cuts.sort_unstable_by(f64::total_cmp);
-    cuts.dedup_by(|b, a| *b - *a < 1e-9);
+    // Lines may be as near to each other as that; what is rounding is dropped later.
+    cuts.dedup_by(|b, a| *b - *a < 1e-12);
     if let Some(last) = cuts.last_mut() {
         *last = 1.0;
     }

@@ -15,6 +15,8 @@ use super::judgement::{Estimate, Found};
 use super::line_error::distance_to_segment;
 use super::options::{TessellateError, TessellationOptions};
 use super::outline::Ground;
+use super::patience::Patience;
+use super::places::Places;
 use super::placing::{Middles, Vertices};
 use super::plane::Plane;
 use super::seed::Seed;
@@ -31,12 +33,14 @@ pub struct Refinement<'a> {
     pub plane: Option<&'a Plane>,
     /// The tolerance and the other limits.
     pub options: &'a TessellationOptions,
-    /// Places in the triangulation per native parameters; for planes the place is found by position.
-    pub scale: DVec2,
+    /// Places in the triangulation; for planes the place is found by position.
+    pub places: &'a Places,
     /// Rectangle of the face.
     pub domain: UvRect,
     /// Points of the surface in the middles of edges, by the numbers of their ends: most edges bound two triangles.
     pub middles: Middles,
+    /// How much more is tried.
+    pub patience: Patience,
 }
 
 /// Triangles round a vertex that are estimated before any is proved.
@@ -74,6 +78,17 @@ struct Task {
     over: bool,
     /// How much nearer to the surface its corners are put before it is divided.
     lower: [f64; 3],
+    cause: Cause,
+}
+
+/// What a triangle is divided for.
+#[derive(Clone, Copy, PartialEq)]
+enum Cause {
+    Distance,
+    /// It looks away from the surface.
+    Fold,
+    /// Its edges or angles.
+    Size,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -166,6 +181,19 @@ impl Refinement<'_> {
             }
             let Some(bounds) = region.standing(task.corners) else { continue };
             let numbers = task.corners.map(|c| region.number(c));
+            match task.cause {
+                // As far as distance goes it may be as near as asked.
+                Cause::Fold if !self.patience.has_folds() => {
+                    self.judge(region, vertices, task.corners, &mut queue, refined, prove);
+                    continue;
+                }
+                Cause::Fold => self.patience.fold(),
+                Cause::Distance if !self.patience.divide(self.ground, self.options.tolerance) => {
+                    refined.give_up(&task);
+                    continue;
+                }
+                Cause::Distance | Cause::Size => {}
+            }
             if self.lower(region, vertices, &task, &mut around) {
                 for corners in around.drain(..) {
                     self.judge(region, vertices, corners, &mut queue, refined, prove);
@@ -174,9 +202,11 @@ impl Refinement<'_> {
             }
             let uv = numbers.map(|n| vertices.uvs[n as usize]);
             let at = match task.divide {
-                Divide::Edge(k) if !bounds[k] => 0.5 * (uv[k] + uv[(k + 1) % 3]),
-                Divide::At(k, t) if !bounds[k] => uv[k].lerp(uv[(k + 1) % 3], t),
-                _ => (uv[0] + uv[1] + uv[2]) / 3.0,
+                Divide::At(k, t) if !bounds[k] && self.places.is_even() => uv[k].lerp(uv[(k + 1) % 3], t),
+                Divide::Edge(k) | Divide::At(k, _) if !bounds[k] => {
+                    self.places.middle([uv[k], uv[(k + 1) % 3]])
+                }
+                _ => self.places.middle(uv),
             };
             if let Some(k) = self.too_near_a_chord(vertices, &numbers, &bounds, at) {
                 refined.stubborn.insert([numbers[k], numbers[(k + 1) % 3]]);
@@ -185,7 +215,7 @@ impl Refinement<'_> {
             }
             let mut done = self.put(region, vertices, at, task.corners[0]);
             if done.is_none() && task.divide != Divide::Middle {
-                done = self.put(region, vertices, (uv[0] + uv[1] + uv[2]) / 3.0, task.corners[0]);
+                done = self.put(region, vertices, self.places.middle(uv), task.corners[0]);
             }
             match done {
                 Some(around) => {
@@ -207,7 +237,7 @@ impl Refinement<'_> {
         let Some(mut hint) = region.corners().next().map(|c| c[0]) else { return };
         for seed in seeds {
             let clear = 1.0 / (seed.spacing * CLEAR);
-            let Some(corners) = region.around(seed.uv * self.scale, hint) else { continue };
+            let Some(corners) = region.around(self.places.of(seed.uv), hint) else { continue };
             hint = corners[0];
             let Some(bounds) = region.standing(corners) else { continue };
             let at = corners.map(|c| (vertices.uvs[region.number(c) as usize] - seed.uv) * clear);
@@ -252,7 +282,8 @@ impl Refinement<'_> {
         hint: FixedVertexHandle,
     ) -> Option<Vec<[FixedVertexHandle; 3]>> {
         let number = vertices.uvs.len() as u32;
-        let place = self.plane.map_or(uv * self.scale, |plane| plane.coordinates(self.ground.point(uv)));
+        let place =
+            self.plane.map_or_else(|| self.places.of(uv), |plane| plane.coordinates(self.ground.point(uv)));
         let mut around = region.insert(place, number, hint)?;
         self.add_balanced(vertices, uv);
         if self.options.balanced && self.plane.is_none() {
@@ -294,8 +325,9 @@ impl Refinement<'_> {
         let uv = numbers.map(|n| vertices.uvs[n as usize]);
         let allowed = self.allowed(vertices, &numbers);
         let normals = numbers.map(|n| vertices.normals[n as usize]);
-        let Found { error, shares, crease, lower } = self.error(vertices, numbers, allowed, prove);
+        let Found { error, shares, crease, lower, folded } = self.error(vertices, numbers, allowed, prove);
         let mut excess = error / allowed;
+        let mut cause = if folded { Cause::Fold } else { Cause::Distance };
         let Some(bounds) = region.standing(corners) else { return };
         let mut divide = self.weakest(&bounds, shares, allowed, (vertices, &numbers), refined, excess > 1.0);
         if let Some((k, t)) = crease
@@ -314,7 +346,7 @@ impl Refinement<'_> {
             if let Some(k) = worst
                 && lengths[k] / longest > excess.max(1.0)
             {
-                (excess, divide) = (lengths[k] / longest, Some(Divide::Edge(k)));
+                (excess, divide, cause) = (lengths[k] / longest, Some(Divide::Edge(k)), Cause::Size);
             }
         }
         if let Some(limit) = self.options.max_angle
@@ -326,7 +358,7 @@ impl Refinement<'_> {
             }
             let angle = angles.into_iter().fold(0.0, f64::max);
             if angle / limit > excess.max(1.0) {
-                excess = angle / limit;
+                (excess, cause) = (angle / limit, Cause::Size);
                 divide = Some(free_longest(&lengths, &bounds).map_or(Divide::Middle, Divide::Edge));
             }
         }
@@ -334,11 +366,13 @@ impl Refinement<'_> {
             refined.error = refined.error.max(error);
             return;
         }
-        let size = self.domain.size();
-        let extent = [0, 1, 2].map(|k| ((uv[(k + 1) % 3] - uv[k]) / size).abs().max_element());
-        let small = extent.into_iter().fold(0.0, f64::max) < SHORTEST;
+        let shorter = |axis: usize| {
+            let part = |k: usize| self.places.part(axis, uv[k][axis], uv[(k + 1) % 3][axis]);
+            (0..3).all(|k| part(k) < SHORTEST)
+        };
+        let small = shorter(0) && shorter(1);
         let over = !(error <= allowed);
-        let task = |divide| Task { excess, corners, divide, error, over, lower };
+        let task = |divide| Task { excess, corners, divide, error, over, lower, cause };
         match divide {
             Some(divide) if !small => queue.push(task(divide)),
             _ => refined.give_up(&task(Divide::Middle)),

@@ -12,6 +12,8 @@ use super::flatness::Flatness;
 use super::mesh::{FaceMesh, Quality};
 use super::options::{TessellateError, TessellationOptions};
 use super::outline::{Ground, Outline, Run};
+use super::patience::{Patience, enough};
+use super::places::Places;
 use super::placing::{Middles, Vertices};
 use super::plane::Plane;
 use super::refine::Refinement;
@@ -46,8 +48,8 @@ pub struct Tessellator<'a> {
     flatness: Option<Flatness<'a>>,
     /// How the surface bends, unless it is a plane.
     bends: Option<Bends>,
-    /// Places in the triangulation per native parameters.
-    scale: DVec2,
+    /// Places in the triangulation.
+    places: Places,
     options: TessellationOptions,
     tolerance: f64,
 }
@@ -60,6 +62,8 @@ pub const CHORD_SHARE: f64 = 0.95;
 const CHORD_LIMIT: f64 = 0.985;
 /// Runs shorter than this part of the tolerance are one point.
 const NOTHING: f64 = 1e-6;
+/// Fewer vertices inside are not worth knowing better.
+const MANY: f64 = 1000.0;
 /// Vertices of a lattice over the box of a face, for each that may lie inside.
 const MOSTLY_OUTSIDE: usize = 8;
 
@@ -85,14 +89,19 @@ impl<'a> Tessellator<'a> {
         let plane = Plane::of(&ground, FLAT * options.tolerance);
         let flatness = (options.conservative && plane.is_none()).then(|| Flatness::new(&ground));
         let bent = plane.is_none().then(|| Bends::new(&ground, &face.domain, options.balanced));
-        let scale = bent
-            .as_ref()
-            .map_or(DVec2::ONE, |(bends, speed)| scale(bends, *speed, face.domain.size(), options.tolerance));
+        let places = match &bent {
+            Some((bends, speed)) => {
+                let factors = scale(bends, *speed, face.domain.size(), options.tolerance);
+                let step = (*speed / factors).min_element();
+                Places::new(&ground, factors, &face.domain, step, options.tolerance)
+            }
+            None => Places::even(DVec2::ONE, &face.domain),
+        };
         Ok(Self {
             face,
             ground,
             bends: bent.map(|b| b.0),
-            scale,
+            places,
             outline,
             plane,
             flatness,
@@ -207,15 +216,15 @@ impl<'a> Tessellator<'a> {
         cancelled: &dyn Fn() -> bool,
     ) -> Result<(Option<FaceMesh>, Vec<LongChord>), TessellateError> {
         let flatness = self.flatness.as_ref();
-        let scale = self.scale;
         let refinement = Refinement {
             ground: &self.ground,
             flatness,
             plane: self.plane.as_ref(),
             options: &self.options,
-            scale,
+            places: &self.places,
             domain: self.face.domain,
             middles: Middles::default(),
+            patience: Patience::new(boundary.iter().flatten().map(Vec::len).sum()),
         };
         let mut long = Vec::new();
         let count: usize = boundary.iter().flatten().map(Vec::len).sum();
@@ -229,11 +238,11 @@ impl<'a> Tessellator<'a> {
             for (run, samples) in runs.iter().enumerate() {
                 for (index, pair) in samples.windows(2).enumerate() {
                     // A chord of no length may go back and forth by rounding, across others.
-                    if pair[0].point == pair[1].point && self.is_rounding(pair[1].uv - pair[0].uv) {
+                    if pair[0].point == pair[1].point && self.is_rounding(pair[0].uv, pair[1].uv) {
                         continue;
                     }
                     let owner = LongChord { chain, run, index, crossed: false };
-                    for sample in self.along(pair, scale) {
+                    for sample in self.along(pair) {
                         let number = vertices.uvs.len() as u32;
                         ring.push((number, owner));
                         refinement.add_sample(&mut vertices, &sample);
@@ -256,7 +265,7 @@ impl<'a> Tessellator<'a> {
         }
         let places: Vec<DVec2> = match &self.plane {
             Some(plane) => vertices.positions.iter().map(|p| plane.coordinates(*p)).collect(),
-            None => vertices.uvs.iter().map(|uv| *uv * scale).collect(),
+            None => vertices.uvs.iter().map(|uv| self.places.of(*uv)).collect(),
         };
         let (mut region, crossings) = triangulated(&places, &loops)?;
         quality.crossings = crossings.places.len();
@@ -287,16 +296,27 @@ impl<'a> Tessellator<'a> {
             quality.error = FLAT * self.tolerance + quality.gap;
         }
         quality.evaluations = vertices.uvs.len();
-        let reversed = self.plane.is_none() && scale.x * scale.y < 0.0;
-        let mut triangles: Vec<[u32; 3]> =
-            region.triangles().map(|[a, b, c]| if reversed { [a, c, b] } else { [a, b, c] }).collect();
+        let mut triangles: Vec<[u32; 3]> = region.triangles().collect();
         if self.plane.is_none() {
             let within = |t: [u32; 3]| refinement.hold(&vertices, std::iter::once(t));
             untangle(&mut triangles, &vertices, within);
-            decimate(&mut triangles, &vertices, &refinement, cancelled);
-            for chord in folded(&vertices, &triangles) {
-                long.extend(either(chord).map(|c| LongChord { crossed: true, ..*c }));
+            let in_the_way = |triangles: &[[u32; 3]]| -> Vec<LongChord> {
+                // Where the surface itself is folded no chords help.
+                let chords =
+                    if refinement.patience.has_folds() { folded(&vertices, triangles) } else { Vec::new() };
+                chords
+                    .into_iter()
+                    .filter_map(|c| either(c).map(|c| LongChord { crossed: true, ..*c }))
+                    .collect()
+            };
+            if draft {
+                long.extend(in_the_way(&triangles));
+                if !long.is_empty() {
+                    return Ok((None, sorted(long)));
+                }
             }
+            decimate(&mut triangles, &vertices, &refinement, cancelled);
+            long.extend(in_the_way(&triangles));
         }
         let mesh = finish(vertices, triangles, loops, quality);
         if mesh.triangles.len() > self.options.triangle_limit {
@@ -332,12 +352,12 @@ impl<'a> Tessellator<'a> {
 
     /// The first vertex of a chord; and where the chord is one point (a pole) others at the same position, so that the
     /// triangles that end there are no wider than others.
-    fn along(&self, pair: &[EdgeSample], scale: DVec2) -> Vec<EdgeSample> {
+    fn along(&self, pair: &[EdgeSample]) -> Vec<EdgeSample> {
         /// Vertices along a pole at most, and the angle between two.
         const MOST: f64 = 256.0;
         const WIDEST: f64 = 0.8;
         let (a, b) = (pair[0], pair[1]);
-        let step = ((b.uv - a.uv) * scale).length();
+        let step = self.places.step(a.uv, b.uv).length();
         if a.point != b.point || self.plane.is_some() || !(step > 1.0) {
             return vec![a];
         }
@@ -356,11 +376,11 @@ impl<'a> Tessellator<'a> {
     }
 
     /// Whether a step in parameters is rounding.
-    fn is_rounding(&self, step: DVec2) -> bool {
+    fn is_rounding(&self, from: DVec2, to: DVec2) -> bool {
         /// Part of the domain, and of what one triangle spans.
         const PART: f64 = 1e-6;
-        let of_domain = (step / self.face.domain.size()).abs().max_element();
-        of_domain < PART && (self.plane.is_some() || (step * self.scale).length() < PART)
+        let of_domain = ((to - from) / self.face.domain.size()).abs().max_element();
+        of_domain < PART && (self.plane.is_some() || self.places.step(from, to).length() < PART)
     }
 
     /// Makes parameters of boundary vertices that differ by rounding alone the same, u and v apart: chords along
@@ -368,16 +388,14 @@ impl<'a> Tessellator<'a> {
     fn align(&self, uvs: &mut [DVec2]) {
         /// Part of the domain that is rounding.
         const ROUNDING: f64 = 1e-10;
-        let domain = &self.face.domain;
         for axis in 0..2 {
-            let slack = ROUNDING * domain.size()[axis];
             let mut order: Vec<usize> = (0..uvs.len()).collect();
             order.sort_by(|a, b| uvs[*a][axis].total_cmp(&uvs[*b][axis]).then(a.cmp(b)));
             let mut common = f64::NEG_INFINITY;
             let mut before = f64::NEG_INFINITY;
             for k in order {
                 let x = uvs[k][axis];
-                if x - before > slack {
+                if !(self.places.part(axis, before, x) <= ROUNDING) {
                     common = x;
                 }
                 before = x;
@@ -396,6 +414,11 @@ impl<'a> Tessellator<'a> {
         let Some(bends) = &self.bends else { return Ok(()) };
         let bounds = around(vertices.uvs.iter().copied());
         let limit = self.options.triangle_limit;
+        // Samples may have met what is only a hair wide.
+        let wanted = expected(bends, &bounds, self.tolerance);
+        if wanted > MANY && wanted > enough(&self.ground, self.tolerance) {
+            return Ok(());
+        }
         // A lattice over the box may be mostly outside of the face.
         let most = limit.saturating_mul(MOSTLY_OUTSIDE);
         let Some(seeds) = seeds(bends, &bounds, self.tolerance, most) else {
@@ -408,7 +431,7 @@ impl<'a> Tessellator<'a> {
     /// A vertex where two chords cross.
     fn add_crossing(&self, place: DVec2, refinement: &Refinement, vertices: &mut Vertices) {
         match &self.plane {
-            None => refinement.add(vertices, place / refinement.scale),
+            None => refinement.add(vertices, refinement.places.native(place)),
             Some(plane) => {
                 let p = plane.origin + plane.x * place.x + plane.y * place.y;
                 vertices.uvs.push(self.face.domain.min);
@@ -423,8 +446,6 @@ impl<'a> Tessellator<'a> {
 
     /// About how many triangles the mesh within `boundary` will have.
     pub fn expected(&self, boundary: &Boundary) -> f64 {
-        /// Fewer vertices inside are not worth knowing better.
-        const MANY: f64 = 1000.0;
         const PROBES: usize = 8;
         /// Area of the largest triangle with edges of length one.
         const LARGEST: f64 = 0.433;
@@ -442,6 +463,7 @@ impl<'a> Tessellator<'a> {
                 self.face.classify_native(uv.x, uv.y) == Side::In
             };
             let hits = (0..PROBES * PROBES).filter(|k| probe(*k)).count();
+            inside = inside.min(enough(&self.ground, self.tolerance));
             inside *= hits as f64 / (PROBES * PROBES) as f64;
         }
         small.max(chords as f64 + 2.0 * inside)
