@@ -1,15 +1,15 @@
 // A vertex of a face's untrimmed triangles. Mirror: encoding::mesh::MeshVertex.
 struct MeshVertex {
-    position: vec3f,   // model units relative to the face's MeshOrigin
+    position: vec3f,   // model units relative to the MeshOrigin
     face: u32,         // slot in the face table
     normal: vec3f,     // du x dv, unit, model axes
     flags: u32,        // MESH_*
     uv: vec2f,         // face-normalised
     entry: u32,        // entry word of the only trim segment that passes through the triangle
-    pad0: u32,
+    origin: u32,       // position of the MeshOrigin
 }
 
-// Where the vertices of a face are measured from: high + low, model units. Mirror: encoding::mesh::MeshOrigin.
+// Where the vertices of a piece of a face are measured from: high + low, model units. Mirror: encoding::mesh::MeshOrigin.
 struct MeshOrigin {
     high: vec3f,
     pad0: u32,

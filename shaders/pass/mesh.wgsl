@@ -36,7 +36,7 @@ struct LoneCorner {
 
 fn corner(index: u32) -> Corner {
     let v = vertices[index];
-    let origin = origins[v.face];
+    let origin = origins[v.origin];
     let p = place_in_view(view, origin.high, origin.low, v.position);
     return Corner(clip_place(view, p), v.uv, axes_apply(axes_of(view), v.normal), v.face);
 }

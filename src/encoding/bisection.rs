@@ -130,7 +130,7 @@ impl Bisection<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::encoding::mesh;
+    use crate::encoding::piece_mesh::surface;
     use crate::kernel::trim::TrimStructure;
     use crate::scene::demo;
     use glam::DVec2;
@@ -146,7 +146,7 @@ mod tests {
         let mut divided = 0;
         for record in faces.iter().filter(|f| !f.loops.is_empty()).take(12) {
             let face = record.derive().expect("valid test data");
-            let Some(whole) = mesh::surface(&face, -4) else { continue };
+            let Ok(whole) = surface(&face, &face.domain, -4, 60_000) else { continue };
             let area: f64 = whole.triangles.iter().map(|t| double_area(&whole, *t)).sum();
             let sorted = sort_triangles(whole.clone(), &face, 0.3, 60_000);
             let mesh = &sorted.mesh;

@@ -1,26 +1,23 @@
 //! Untrimmed triangles of faces at several levels of detail, for the renderer that trims them per pixel.
 //!
-//! A level `k` stands for an error of at most `2^k` model units. Each face keeps the levels that were asked for;
-//! a picture draws one of each face in sight. Parts where the trims keep nothing are left out, parts that they keep
-//! whole are marked, so that no curve is looked at there. Positions are relative to an origin of the face,
-//! rounded like those of cells.
+//! A face is drawn whole where that takes few triangles, else piece by piece ([`super::piece`]): each piece in sight at the level
+//! that its nearest point asks for, the others not at all. So how many triangles a picture takes depends on what is in the
+//! window, however near it is. Pieces keep the levels that were asked for; seams close the gaps between them.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::arena::Arena;
-use super::bisection::{SortedMesh, sort_triangles};
-use super::cell::split_high_low;
-use super::level::{LevelView, level_error};
-use super::lone_curve::TriangleTrim;
+use super::level::LevelView;
+use super::mesh_choice::{Choice, Cover, Seams};
+use super::piece::{Halves, WHOLE};
+use super::piece_mesh::{Built, PieceMesh, build};
 use super::scene::{FaceSlot, PackedScene};
-use crate::kernel::face::Face;
-use crate::kernel::tessellate::{TessellationOptions, UntrimmedMesh, untrimmed};
-use crate::kernel::view::Bounds;
+use super::seam::OnLine;
+use crate::kernel::face::{Face, UvRect};
 
 /// Mirror of `MeshVertex` in `shaders/layout/mesh.wgsl`, where the fields are described.
 #[repr(C)]
@@ -33,7 +30,7 @@ pub struct MeshVertex {
     pub flags: u32,
     pub uv: [f32; 2],
     pub entry: u32,
-    pub pad0: u32,
+    pub origin: u32,
 }
 
 impl MeshVertex {
@@ -54,36 +51,56 @@ pub struct MeshOrigin {
     pub pad1: u32,
 }
 
+/// Face, node of its piece and level.
+pub(super) type Key = (FaceSlot, u32, i32);
+
+/// A piece that a picture needs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Want {
+    /// The face.
+    pub slot: FaceSlot,
+    /// The piece's number, see [`super::piece`].
+    pub node: u32,
+    /// The coarsest level that is fine enough.
+    pub level: i32,
+    /// Its native parameters; `None`: all of the face.
+    pub rect: Option<UvRect>,
+}
+
+impl Want {
+    /// What tells it from others.
+    pub fn key(&self) -> (FaceSlot, u32, i32) {
+        (self.slot, self.node, self.level)
+    }
+}
+
+/// What there is to draw a picture from.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Selection {
+    /// Faces that cannot be tessellated: to be cast.
+    pub cast: Vec<FaceSlot>,
+    /// Whether something stands for all other faces in sight, be it too coarse.
+    pub complete: bool,
+    /// Pieces that are not there yet.
+    pub wanted: Vec<Want>,
+}
+
 #[derive(Debug, Clone)]
-struct Part {
+pub(super) struct Part {
     vertices: Range<u32>,
-    /// Corners of the triangles, positions in the scene's vertex array: of those that are kept whole, that one segment passes
-    /// through, and of others.
+    origin: u32,
+    pub(super) rect: UvRect,
+    /// Corners of the triangles, positions in the scene's vertex array; see [`PieceMesh`].
     lists: [Vec<u32>; 3],
+    pub(super) borders: [[Vec<OnLine>; 2]; 2],
 }
 
-/// A face takes no more triangles than this; where it would, it is better cast.
-const FACE_TRIANGLES: usize = 60_000;
-
-/// Triangles that trims pass through are halved until their sides are this many times the error of the level: ten to
-/// twenty pixels where that is half a pixel. Shorter ones leave less to trim, but take longer to draw than that saves.
-const TRIMMED_SIDE: f64 = 40.0;
-
-/// The triangles of `face` at a level, sorted by what its trims leave of them. `None` where it takes too many, or
-/// cannot be tessellated.
-pub fn build(face: &Face, level: i32) -> Option<SortedMesh> {
-    let mesh = surface(face, level)?;
-    Some(sort_triangles(mesh, face, TRIMMED_SIDE * level_error(level), FACE_TRIANGLES))
-}
-
-/// The triangles of the untrimmed surface: within the level's error as far as P2's estimate at points of the surface tells.
-pub(super) fn surface(face: &Face, level: i32) -> Option<UntrimmedMesh> {
-    let options = TessellationOptions {
-        conservative: false,
-        triangle_limit: FACE_TRIANGLES,
-        ..TessellationOptions::new(level_error(level))
-    };
-    untrimmed(face, &options).ok()
+/// A piece that takes too many triangles at a level and finer ones.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Divided {
+    pub(super) level: i32,
+    /// `None`: and cannot be divided.
+    pub(super) halves: Option<Halves>,
 }
 
 /// The triangles of all faces of a packed scene, by the same slots.
@@ -91,23 +108,17 @@ pub(super) fn surface(face: &Face, level: i32) -> Option<UntrimmedMesh> {
 pub struct MeshScene {
     pub(crate) vertices: Arena<MeshVertex>,
     pub(crate) origins: Arena<MeshOrigin>,
-    parts: BTreeMap<(FaceSlot, i32), Part>,
-    /// Levels that a face takes too many triangles for.
-    refused: BTreeSet<(FaceSlot, i32)>,
-    selected: Vec<(FaceSlot, i32)>,
+    pub(super) parts: BTreeMap<Key, Part>,
+    pub(super) divided: BTreeMap<(FaceSlot, u32), Divided>,
+    selected: Vec<Key>,
     indices: Vec<u32>,
     ends: [usize; 3],
     revision: u64,
 }
 
 impl MeshScene {
-    /// Whether a face's triangles are there at exactly this level.
-    pub fn has(&self, slot: FaceSlot, level: i32) -> bool {
-        self.parts.contains_key(&(slot, level))
-    }
-
-    /// Makes and selects what a view needs: for each visible face in sight the level at which it is wrong by at most
-    /// `error_px` pixels. Returns the faces that are to be cast instead.
+    /// Makes and selects what a view needs: for each visible face what of it is in sight, wrong by at most `error_px` pixels.
+    /// Returns the faces that are to be cast instead.
     pub fn prepare<'a>(
         &mut self,
         scene: &PackedScene,
@@ -115,60 +126,53 @@ impl MeshScene {
         view: &LevelView,
         error_px: f64,
     ) -> Vec<FaceSlot> {
-        let wanted: Vec<_> = wanted(scene, view, error_px).collect();
-        let missing: Vec<_> = wanted
-            .iter()
-            .filter(|(slot, level)| !self.knows(*slot, *level))
-            .filter_map(|(slot, level)| Some((*slot, *level, faces(*slot)?)))
-            .collect();
-        let built: Vec<_> = missing
-            .into_par_iter()
-            .map(|(slot, level, face)| (slot, level, face, build(face, level)))
-            .collect();
-        for (slot, level, face, mesh) in built {
-            self.take(slot, level, face, mesh.as_ref());
-        }
-        self.select(wanted)
-    }
-
-    /// Takes what [`build`] made, or notes that it made nothing.
-    pub fn take(&mut self, slot: FaceSlot, level: i32, face: &Face, mesh: Option<&SortedMesh>) {
-        match mesh {
-            Some(mesh) => self.insert(slot, level, mesh, face),
-            None => {
-                self.refused.insert((slot, level));
+        loop {
+            let Selection { mut cast, wanted, .. } = self.select(scene, view, error_px);
+            let (missing, lacking): (Vec<_>, Vec<_>) =
+                wanted.into_iter().map(|want| (want, faces(want.slot))).partition(|(_, face)| face.is_some());
+            if missing.is_empty() {
+                cast.extend(lacking.into_iter().map(|(want, _)| want.slot));
+                return cast;
+            }
+            let work = missing.into_par_iter().filter_map(|(want, face)| Some((want, build(face?, &want))));
+            for (want, built) in work.collect::<Vec<_>>() {
+                self.take(&want, built);
             }
         }
     }
 
-    /// Whether a face's triangles at this level are there or known to be too many.
-    pub fn knows(&self, slot: FaceSlot, level: i32) -> bool {
-        self.has(slot, level) || self.is_refused(slot, level)
+    /// Takes what [`build`] made of a piece.
+    pub fn take(&mut self, want: &Want, built: Built) {
+        let divided = match built {
+            Built::Mesh(mesh) => return self.insert(want.key(), mesh),
+            Built::Halves(halves) => Divided { level: want.level, halves: Some(halves) },
+            Built::Nothing => Divided { level: want.level, halves: None },
+        };
+        let held = self.divided.entry((want.slot, want.node)).or_insert(divided);
+        held.level = held.level.max(want.level);
+        held.halves = held.halves.or(divided.halves);
     }
 
-    fn is_refused(&self, slot: FaceSlot, level: i32) -> bool {
-        self.refused.range((slot, level)..=(slot, i32::MAX)).next().is_some()
-    }
-
-    /// Packs a face's triangles at a level, in place of what was there at that level.
-    pub fn insert(&mut self, slot: FaceSlot, level: i32, mesh: &SortedMesh, face: &Face) {
-        self.drop_part((slot, level));
-        let origin = self.origin_of(slot, mesh);
-        let (vertices, lists) = compact(slot, mesh, face, origin);
+    fn insert(&mut self, key: Key, mesh: PieceMesh) {
+        self.drop_part(key);
+        let PieceMesh { rect, origin, mut vertices, mut lists, mut borders } = mesh;
+        let origin = self.origins.insert(&[origin]).start;
+        for vertex in &mut vertices {
+            (vertex.face, vertex.origin) = (key.0.0, origin);
+        }
         let vertices = self.vertices.insert(&vertices);
-        let lists = lists.map(|indices| indices.into_iter().map(|i| vertices.start + i).collect());
-        self.parts.insert((slot, level), Part { vertices, lists });
+        lists.iter_mut().flatten().for_each(|i| *i += vertices.start);
+        borders.iter_mut().flatten().flatten().for_each(|(_, i)| *i += vertices.start);
+        self.parts.insert(key, Part { vertices, origin, rect, lists, borders });
         self.selected.clear();
     }
 
-    /// Drops all levels of a face: it changed or is gone.
+    /// Drops all that was made of a face: it changed or is gone.
     pub fn forget(&mut self, slot: FaceSlot) {
-        let levels: Vec<i32> = self.levels(slot).collect();
-        levels.into_iter().for_each(|level| self.drop_part((slot, level)));
-        self.refused.retain(|(s, _)| *s != slot);
-        if self.origins.data().get(slot.0 as usize).is_some() {
-            self.origins.set(slot.0, MeshOrigin::zeroed());
-        }
+        let of_face = (slot, 0, i32::MIN)..=(slot, u32::MAX, i32::MAX);
+        let keys: Vec<Key> = self.parts.range(of_face).map(|(key, _)| *key).collect();
+        keys.into_iter().for_each(|key| self.drop_part(key));
+        self.divided.retain(|(s, _), _| *s != slot);
         self.selected.clear();
     }
 
@@ -181,31 +185,44 @@ impl MeshScene {
         }
     }
 
-    /// Chooses what is drawn: for each face the level wanted, or the next finer, or the finest there is. Returns
-    /// the faces of which there is nothing or that take too many triangles.
-    pub fn select(&mut self, wanted: impl IntoIterator<Item = (FaceSlot, i32)>) -> Vec<FaceSlot> {
-        let (mut chosen, mut lacking) = (Vec::new(), Vec::new());
-        for (slot, level) in wanted {
-            let finer = self.parts.range((slot, i32::MIN)..=(slot, level)).next_back();
-            let any = finer.or_else(|| self.parts.range((slot, level)..=(slot, i32::MAX)).next());
-            match any {
-                Some((key, _)) if !self.is_refused(slot, level) => chosen.push(*key),
-                _ => lacking.push(slot),
+    /// Chooses what is drawn: of each visible face in sight, or each piece of it, the level at which it is wrong by at most
+    /// `error_px` pixels, or the next finer, or what there is.
+    pub fn select(&mut self, scene: &PackedScene, view: &LevelView, error_px: f64) -> Selection {
+        let mut choice = Choice::new(self, view, error_px);
+        let mut found = Selection { complete: true, ..Selection::default() };
+        for slot in scene.slots().filter(|slot| !scene.cells_of(*slot).is_empty()) {
+            let Some(bounds) = scene.face_bounds(slot) else { continue };
+            match choice.cover((slot, WHOLE), &bounds, None) {
+                Cover::Yes => {}
+                Cover::NotYet => found.complete = false,
+                Cover::Never => found.cast.push(slot),
             }
         }
-        chosen.sort_unstable();
-        if chosen != self.selected || self.indices.is_empty() {
-            self.indices.clear();
-            for list in 0..self.ends.len() {
-                for key in &chosen {
-                    self.indices.extend_from_slice(&self.parts[key].lists[list]);
-                }
-                self.ends[list] = self.indices.len();
-            }
-            self.selected = chosen;
-            self.revision += 1;
+        let mut keys;
+        (keys, found.wanted) = choice.made();
+        keys.sort_unstable();
+        if keys != self.selected || self.indices.is_empty() {
+            self.draw(keys);
         }
-        lacking
+        found
+    }
+
+    fn draw(&mut self, keys: Vec<Key>) {
+        self.indices.clear();
+        for list in 0..self.ends.len() {
+            for key in &keys {
+                self.indices.extend_from_slice(&self.parts[key].lists[list]);
+            }
+            self.ends[list] = self.indices.len();
+        }
+        // The grid tells all over a seam.
+        for of_face in keys.chunk_by(|a, b| a.0 == b.0).filter(|keys| keys.len() > 1) {
+            let seams = Seams::new(self, of_face).all();
+            self.indices.extend(seams);
+        }
+        self.ends[2] = self.indices.len();
+        self.selected = keys;
+        self.revision += 1;
     }
 
     /// Vertex positions of the selected triangles, three each: see [`Self::ends`].
@@ -218,12 +235,17 @@ impl MeshScene {
         self.ends
     }
 
+    /// What is selected: face, native parameters and level of each piece.
+    pub fn selected(&self) -> impl Iterator<Item = (FaceSlot, UvRect, i32)> + '_ {
+        self.selected.iter().map(|key| (key.0, self.parts[key].rect, key.2))
+    }
+
     /// All vertices, free ones included.
     pub fn vertex_data(&self) -> &[MeshVertex] {
         self.vertices.data()
     }
 
-    /// Origins by face slot.
+    /// Origins that vertices name.
     pub fn origin_data(&self) -> &[MeshOrigin] {
         self.origins.data()
     }
@@ -240,86 +262,70 @@ impl MeshScene {
         self.revision += 1;
     }
 
-    fn levels(&self, slot: FaceSlot) -> impl Iterator<Item = i32> + '_ {
-        self.parts.range((slot, i32::MIN)..=(slot, i32::MAX)).map(|((_, level), _)| *level)
-    }
-
-    fn drop_part(&mut self, key: (FaceSlot, i32)) {
+    fn drop_part(&mut self, key: Key) {
         if let Some(part) = self.parts.remove(&key) {
             self.vertices.remove(part.vertices);
+            self.origins.remove(part.origin..part.origin + 1);
             // Its vertices may be used again.
             self.selected.clear();
             self.indices.clear();
         }
     }
-
-    /// The face's origin: the middle of its first triangles, kept for all levels.
-    fn origin_of(&mut self, slot: FaceSlot, sorted: &SortedMesh) -> DVec3 {
-        while self.origins.data().len() <= slot.0 as usize {
-            self.origins.insert(&[MeshOrigin::zeroed()]);
-        }
-        if self.levels(slot).next().is_none() {
-            let corners = kept(sorted).flat_map(|(triangle, _)| triangle);
-            let centre = Bounds::of(corners.map(|c| sorted.mesh.positions[c as usize])).centre();
-            let (high, low) = split_high_low(centre);
-            self.origins.set(slot.0, MeshOrigin { high, pad0: 0, low, pad1: 0 });
-        }
-        let origin = self.origins.data()[slot.0 as usize];
-        DVec3::from(origin.high.map(f64::from)) + DVec3::from(origin.low.map(f64::from))
-    }
 }
 
-/// Visible faces in sight with the level at which they are wrong by at most `error_px` pixels.
-pub fn wanted<'a>(
-    scene: &'a PackedScene,
-    view: &'a LevelView,
-    error_px: f64,
-) -> impl Iterator<Item = (FaceSlot, i32)> + 'a {
-    let shown = scene.slots().filter(|slot| !scene.cells_of(*slot).is_empty());
-    shown.filter_map(move |slot| Some((slot, view.level(&scene.face_bounds(slot)?, error_px)?)))
-}
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
 
-/// Triangles that show anything.
-fn kept(sorted: &SortedMesh) -> impl Iterator<Item = ([u32; 3], TriangleTrim)> + '_ {
-    let all = sorted.mesh.triangles.iter().zip(&sorted.trims);
-    all.filter(|(_, trim)| **trim != TriangleTrim::Empty).map(|(t, trim)| (*t, *trim))
-}
+    use super::*;
+    use crate::encoding::scene::FaceShape;
+    use crate::kernel::view::{Camera, Projection};
+    use crate::scene::demo;
 
-/// The vertices that are used, once for triangles of the same kind, and the indices into them of the lists.
-fn compact(
-    slot: FaceSlot,
-    sorted: &SortedMesh,
-    face: &Face,
-    origin: DVec3,
-) -> (Vec<MeshVertex>, [Vec<u32>; 3]) {
-    let mesh = &sorted.mesh;
-    // Only looked into: its order decides nothing.
-    let mut numbers: HashMap<(TriangleTrim, u32), u32> = HashMap::new();
-    let (mut vertices, mut lists) = (Vec::new(), [const { Vec::new() }; 3]);
-    for (triangle, trim) in kept(sorted) {
-        let (list, flags, entry) = match trim {
-            TriangleTrim::Empty => continue,
-            TriangleTrim::Whole => (0, MeshVertex::WHOLE, 0),
-            TriangleTrim::Lone(curve) if curve.zero_kept => (1, MeshVertex::ZERO_KEPT, curve.entry),
-            TriangleTrim::Lone(curve) => (1, 0, curve.entry),
-            TriangleTrim::Several => (2, 0, 0),
+    #[test]
+    fn what_is_coarse_stands_in_until_pieces_are_there() {
+        let faces = demo::model().faces;
+        let record = faces.iter().find(|f| f.loops.len() > 3).expect("holes");
+        let face = record.derive().expect("valid test data");
+        let packed = PackedScene::from_faces([FaceShape::of(&face, None, false)]);
+        let slot = packed.slots().next().expect("one face");
+        let mut meshes = MeshScene::default();
+        let patch = &face.patches[face.patches.len() / 2];
+        let target = patch.point(0.5, 0.5);
+        let seen = |meshes: &mut MeshScene, distance: f64| {
+            let eye = target + DVec3::new(0.3, 0.4, 0.8) * distance;
+            let projection = Projection::Perspective { fov_y: 0.7 };
+            let view = LevelView::new(&Camera { eye, target, up: DVec3::Z, projection }, [640, 480]);
+            meshes.select(&packed, &view, 0.5)
         };
-        for corner in triangle {
-            let c = corner as usize;
-            let number = *numbers.entry((trim, corner)).or_insert_with(|| {
-                vertices.push(MeshVertex {
-                    position: (mesh.positions[c] - origin).as_vec3().to_array(),
-                    face: slot.0,
-                    normal: mesh.normals[c].as_vec3().to_array(),
-                    flags,
-                    uv: face.domain.normalise(mesh.uvs[c]).as_vec2().to_array(),
-                    entry,
-                    pad0: 0,
-                });
-                vertices.len() as u32 - 1
-            });
-            lists[list].push(number);
+        let diagonal =
+            face.patches.iter().fold(crate::kernel::view::Bounds::EMPTY, |b, p| b.union(p.bounds()));
+        let (far, near) = (3.0 * diagonal.diagonal(), 0.01 * diagonal.diagonal());
+        let first = seen(&mut meshes, far);
+        assert!(!first.complete && first.wanted.len() == 1 && first.wanted[0].rect.is_none());
+        let mut most = 0;
+        for distance in [far, near, far] {
+            let mut found = seen(&mut meshes, distance);
+            while let Some(want) = found.wanted.first() {
+                let built = build(&face, want);
+                meshes.take(want, built);
+                found = seen(&mut meshes, distance);
+                let selected: Vec<_> = meshes.selected().collect();
+                assert!(!found.complete || !selected.is_empty());
+                assert!(most == 0 || found.complete, "what was there before stands in");
+                // No part of the face is drawn twice.
+                for (k, (_, a, _)) in selected.iter().enumerate() {
+                    assert!(selected[..k].iter().all(|(_, b, _)| {
+                        let (low, high) = (a.min.max(b.min), a.max.min(b.max));
+                        low.x >= high.x || low.y >= high.y
+                    }));
+                }
+            }
+            most = most.max(meshes.selected().count());
+            assert!(found.complete && found.cast.is_empty());
         }
+        assert!(most > 2, "{most}");
+        meshes.forget(slot);
+        assert!(!seen(&mut meshes, far).complete && meshes.indices().is_empty());
     }
-    (vertices, lists)
 }

@@ -66,7 +66,7 @@ impl PackedMesh {
             flags: 0,
             uv: face.domain.normalise(*uv).as_vec2().to_array(),
             entry: 0,
-            pad0: 0,
+            origin: 0,
         };
         Self {
             origin,
@@ -112,6 +112,13 @@ impl TessellationScene {
         scene
     }
 
+    /// Whether the triangles are those of `other`, whatever was measured of either.
+    pub fn has_triangles_of(&self, other: &Self) -> bool {
+        self.vertices.data() == other.vertices.data()
+            && self.parts.data() == other.parts.data()
+            && self.corners.data() == other.corners.data()
+    }
+
     /// Number of triangles.
     pub fn triangle_count(&self) -> usize {
         self.levels.data().len()
@@ -129,6 +136,21 @@ impl TessellationScene {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_measured_changes_no_triangle() {
+        let face = crate::scene::demo::model().faces[4].derive().expect("valid test data");
+        let mesh = |tolerance: f64| {
+            let options = crate::kernel::tessellate::TessellationOptions::new(tolerance);
+            let mesh = crate::kernel::tessellate::tessellate(&face, &options).expect("few triangles");
+            (mesh.triangles.len(), PackedMesh::new(&face, &mesh))
+        };
+        let ((count, coarse), (_, fine)) = (mesh(0.1), mesh(0.001));
+        let scene = |mesh: &PackedMesh| TessellationScene::of([(FaceSlot(3), mesh)]);
+        let measured = scene(&coarse.clone().measured(&vec![0.05; count], 0.1));
+        assert!(measured.has_triangles_of(&scene(&coarse)) && !measured.has_triangles_of(&scene(&fine)));
+        assert!(measured.levels.data() != scene(&coarse).levels.data());
+    }
 
     #[test]
     fn levels_tell_on_which_side_of_the_tolerance_a_triangle_is() {

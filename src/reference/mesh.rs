@@ -52,11 +52,12 @@ fn set_up<'a>(meshes: &'a MeshScene, view: &View, corners: &[u32]) -> Option<Dra
     let axes = view_axes(view);
     let xyz = |v: [f32; 4]| Vec3::new(v[0], v[1], v[2]);
     let corners: [&MeshVertex; 3] = std::array::from_fn(|k| &meshes.vertex_data()[corners[k] as usize]);
-    let origin = &meshes.origin_data()[corners[0].face as usize];
-    let high = Vec3::from(origin.high) - xyz(view.reference_high);
-    let low = Vec3::from(origin.low) - xyz(view.reference_low);
-    let shift = axes_apply(&axes, high + low);
-    let positions = corners.map(|corner| shift + axes_apply(&axes, Vec3::from(corner.position)));
+    let positions = corners.map(|corner| {
+        let origin = &meshes.origin_data()[corner.origin as usize];
+        let high = Vec3::from(origin.high) - xyz(view.reference_high);
+        let low = Vec3::from(origin.low) - xyz(view.reference_low);
+        axes_apply(&axes, high + low) + axes_apply(&axes, Vec3::from(corner.position))
+    });
     let triangle = Triangle::new(positions.map(|p| place(view, p, DVec2::ZERO)), view)?;
     Some(Drawn { triangle, corners, positions })
 }

@@ -1,24 +1,14 @@
 //! The shared real models and what OpenCASCADE says of them (format: `README.md` beside the models).
 
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use flate2::read::GzDecoder;
 use hairline::kernel::nurbs::{KnotVector, NurbsCurve2, NurbsSurface};
 use hairline::scene::records::FaceRecord;
 use serde_json::Value;
 
-/// The folder of shared real models, where there is one; says so when there is none.
-pub fn models() -> Option<PathBuf> {
-    let found = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .ancestors()
-        .map(|folder| folder.join("shared/models"))
-        .find(|folder| folder.is_dir());
-    if found.is_none() {
-        println!("not run: no shared/models in any parent folder");
-    }
-    found
-}
+pub use crate::folder::models;
 
 /// One face of the truth.
 #[derive(Debug)]

@@ -8,6 +8,7 @@ mod convert;
 mod edit_script;
 mod export;
 mod fixtures;
+mod folder;
 mod iges_truth;
 mod import;
 mod json_schema;

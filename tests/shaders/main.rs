@@ -4,10 +4,11 @@
 mod bands;
 mod edits;
 mod exact_edges;
+#[path = "../models/folder.rs"]
+mod folder;
 mod holes;
 mod modules;
 mod oracle;
 mod pictures;
 mod tessellation;
-
 mod triangles;

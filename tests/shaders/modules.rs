@@ -63,13 +63,13 @@ fn rust_mirrors_match_the_shaders() {
     assert_eq!(members(&conceal, "RibbonPiece"), piece);
     assert_eq!(members(&conceal, "RibbonSpan"), layout!(RibbonSpan: piece, start, end, pad0));
     let mesh = parse(shaders::MESH);
-    let vertex = layout!(MeshVertex: position, face, normal, flags, uv, entry, pad0);
+    let vertex = layout!(MeshVertex: position, face, normal, flags, uv, entry, origin);
     assert_eq!(members(&mesh, "MeshVertex"), vertex);
     assert_eq!(members(&mesh, "MeshOrigin"), layout!(MeshOrigin: high, pad0, low, pad1));
     let tessellation = parse(shaders::TESSELLATION);
     assert_eq!(
         members(&tessellation, "MeshVertex"),
-        layout!(MeshVertex: position, face, normal, flags, uv, entry, pad0)
+        layout!(MeshVertex: position, face, normal, flags, uv, entry, origin)
     );
     let part = layout!(TessellationPart: high, slot, low, pad0);
     assert_eq!(members(&tessellation, "TessellationPart"), part);

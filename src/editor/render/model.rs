@@ -61,7 +61,8 @@ struct CastKey {
     surfaces: Surfaces,
     /// Revision of the triangles, where they are what is shown at rest.
     triangles: Option<u64>,
-    /// Of triangles of a tessellation in the place of faces: whether they are all over, whether they are flat, their revision.
+    /// Of triangles of a tessellation in the place of faces: whether they are all over, whether they are flat, what
+    /// changes with them.
     tessellation: Option<(bool, bool, u64)>,
     /// Whether they carry their errors.
     error: bool,
@@ -197,7 +198,7 @@ pub(super) fn draw(
         untrimmed: mode == encoding::DisplayMode::Untrimmed,
         surfaces,
         triangles: (are_shown && !only_tessellated).then(|| triangles.scene.revision()),
-        tessellation: from.map(|from| (from == 0.0, facets, tessellation.revision)),
+        tessellation: from.map(|from| (from == 0.0, facets, tessellation.seen())),
         error: tessellation.shows_error(),
     };
     // Triangles that share their vertices have no holes.

@@ -22,6 +22,8 @@ pub(super) struct RenderTessellation {
     pub shown: Vec<bool>,
     /// Counts changes.
     pub revision: u64,
+    /// Counts changes of the triangles, whatever was measured of them.
+    shapes: u64,
     view: TessellationView,
     share: f32,
 }
@@ -41,6 +43,11 @@ impl RenderTessellation {
     pub fn shows_error(&self) -> bool {
         self.view == TessellationView::Error && self.made.is_some()
     }
+
+    /// Changes with what a picture shows of the triangles.
+    pub fn seen(&self) -> u64 {
+        if self.shows_error() { self.revision } else { self.shapes }
+    }
 }
 
 /// Takes over what changed since the last frame. After the faces, whose slots it needs.
@@ -59,6 +66,7 @@ pub(super) fn extract(
             own.scene = TessellationScene::default();
             own.made_of = None;
             own.revision += 1;
+            own.shapes += 1;
         }
         return;
     };
@@ -68,8 +76,10 @@ pub(super) fn extract(
     }
     let slots: Vec<_> = made.faces().iter().map(|face| faces.shown_slot(*face)).collect();
     let parts = slots.iter().zip(&made.packed);
-    own.scene =
+    let scene =
         TessellationScene::of(parts.filter_map(|(slot, packed)| Some(((*slot)?, &**packed.as_ref()?))));
+    own.shapes += u64::from(!scene.has_triangles_of(&own.scene));
+    own.scene = scene;
     own.shown = slots.iter().map(Option::is_some).collect();
     own.made = Some(Arc::clone(made));
     own.made_of = Some(key);

@@ -9,31 +9,30 @@ use bevy::prelude::*;
 use super::faces::RenderFaces;
 use crate::editor::derive::Derived;
 use crate::editor::redraw::Waker;
-use crate::encoding::bisection::SortedMesh;
-use crate::encoding::mesh::{build, wanted};
+use crate::encoding::mesh::{Selection, Want};
+use crate::encoding::piece_mesh::{Built, build};
 use crate::encoding::{FaceSlot, LevelView, MeshScene};
 
 /// Error on the screen, pixels.
 const ERROR_PX: f64 = 0.5;
-/// Faces worked on at a time: what is asked for later, by a view that has moved on, waits no longer than these take.
+/// Pieces of faces worked on at a time: what is asked for later, by a view that has moved on, waits no longer than these take.
 const MOST_UNDER_WAY: usize = 32;
 /// Vertices kept, of the levels of past views too.
 const MOST_VERTICES: usize = 4_000_000;
 
-struct Built {
-    slot: FaceSlot,
-    level: i32,
+struct Done {
+    want: Want,
     of: Arc<Derived>,
-    mesh: Option<SortedMesh>,
+    built: Built,
 }
 
 /// Triangles in the render world.
 #[derive(Resource)]
 pub(super) struct RenderTriangles {
     pub scene: MeshScene,
-    under_way: BTreeSet<(FaceSlot, i32)>,
-    sender: mpsc::Sender<Built>,
-    results: Mutex<mpsc::Receiver<Built>>,
+    under_way: BTreeSet<(FaceSlot, u32, i32)>,
+    sender: mpsc::Sender<Done>,
+    results: Mutex<mpsc::Receiver<Done>>,
 }
 
 impl Default for RenderTriangles {
@@ -58,40 +57,32 @@ impl RenderTriangles {
     /// nothing while other faces in sight have no triangles yet.
     pub fn prepare(&mut self, faces: &RenderFaces, view: &LevelView, waker: &Waker) -> Option<Vec<FaceSlot>> {
         self.collect(faces);
-        let list: Vec<_> = wanted(&faces.packed, view, ERROR_PX).collect();
-        for (slot, level) in &list {
-            if !self.scene.knows(*slot, *level) {
-                self.ask(faces, *slot, *level, waker);
-            }
-        }
-        let lacking = self.scene.select(list.iter().copied());
+        let Selection { cast, complete, wanted } = self.scene.select(&faces.packed, view, ERROR_PX);
+        wanted.iter().for_each(|want| self.ask(faces, want, waker));
         self.scene.trim_to(MOST_VERTICES);
-        let level_of = |slot: &FaceSlot| list.iter().find(|(s, _)| s == slot).map(|(_, level)| *level);
-        let known = |slot: &FaceSlot| level_of(slot).is_some_and(|level| self.scene.knows(*slot, level));
-        lacking.iter().all(known).then_some(lacking)
+        complete.then_some(cast)
     }
 
     fn collect(&mut self, faces: &RenderFaces) {
         let results = self.results.lock().unwrap_or_else(|e| e.into_inner());
-        for built in results.try_iter() {
-            self.under_way.remove(&(built.slot, built.level));
-            let current = faces.derived(built.slot).is_some_and(|now| Arc::ptr_eq(now, &built.of));
-            if let Some(face) = built.of.face.as_deref().filter(|_| current) {
-                self.scene.take(built.slot, built.level, face, built.mesh.as_ref());
+        for Done { want, of, built } in results.try_iter() {
+            self.under_way.remove(&want.key());
+            if faces.derived(want.slot).is_some_and(|now| Arc::ptr_eq(now, &of)) {
+                self.scene.take(&want, built);
             }
         }
     }
 
-    fn ask(&mut self, faces: &RenderFaces, slot: FaceSlot, level: i32, waker: &Waker) {
-        let Some(of) = faces.derived(slot).cloned() else { return };
-        if self.under_way.len() >= MOST_UNDER_WAY || !self.under_way.insert((slot, level)) {
+    fn ask(&mut self, faces: &RenderFaces, want: &Want, waker: &Waker) {
+        let Some(of) = faces.derived(want.slot).cloned() else { return };
+        if self.under_way.len() >= MOST_UNDER_WAY || !self.under_way.insert(want.key()) {
             return;
         }
-        let (sender, waker) = (self.sender.clone(), waker.clone());
+        let (sender, waker, want) = (self.sender.clone(), waker.clone(), *want);
         rayon::spawn(move || {
-            let mesh = of.face.as_deref().and_then(|face| build(face, level));
+            let built = of.face.as_deref().map_or(Built::Nothing, |face| build(face, &want));
             // Fails only when the program ends.
-            let _ = sender.send(Built { slot, level, of, mesh });
+            let _ = sender.send(Done { want, of, built });
             waker.wake();
         });
     }

@@ -49,4 +49,4 @@ pub use options::{CurveDivision, CurveError, SurfaceDivision, TessellateError, T
 pub use outline::{Ground, Outline, Run};
 pub use single::{tessellate, tessellate_with};
 pub use tessellator::{Boundary, LongChord, Tessellator};
-pub use untrimmed::{UntrimmedMesh, untrimmed};
+pub use untrimmed::{UntrimmedMesh, untrimmed, untrimmed_over};

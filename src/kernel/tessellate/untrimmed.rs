@@ -37,6 +37,18 @@ pub struct UntrimmedMesh {
 /// # Errors
 /// See [`TessellateError`].
 pub fn untrimmed(face: &Face, options: &TessellationOptions) -> Result<UntrimmedMesh, TessellateError> {
+    untrimmed_over(face, &face.domain, options)
+}
+
+/// As [`untrimmed`] over a part `rect` of the box of its loops.
+///
+/// # Errors
+/// See [`TessellateError`].
+pub fn untrimmed_over(
+    face: &Face,
+    rect: &UvRect,
+    options: &TessellationOptions,
+) -> Result<UntrimmedMesh, TessellateError> {
     options.check()?;
     let ground = Ground::new(face);
     if face.patches.is_empty() {
@@ -48,7 +60,7 @@ pub fn untrimmed(face: &Face, options: &TessellationOptions) -> Result<Untrimmed
         division: options.surface_division,
         most: options.triangle_limit / 2,
     };
-    let cells = kd_tree::leaves(&ground, &face.domain, &limits)?;
+    let cells = kd_tree::leaves(&ground, rect, &limits)?;
     let mut mesh = UntrimmedMesh { cells: cells.len(), ..UntrimmedMesh::default() };
     let corners = CornerIndex::new(&cells, &mut mesh.uvs);
     for (number, cell) in cells.iter().enumerate() {
