@@ -17,6 +17,7 @@ mod balance;
 mod bends;
 pub mod bilinear;
 pub mod chords;
+mod closing;
 pub mod coherence;
 mod creases;
 mod decimate;

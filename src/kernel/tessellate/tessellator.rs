@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::bends::Bends;
 use super::chords::{ChordLimits, EdgeSample, divide, divide_part};
+use super::closing::close;
 use super::decimate::decimate;
 use super::flatness::Flatness;
 use super::mesh::{FaceMesh, Quality};
@@ -64,6 +65,8 @@ const CHORD_LIMIT: f64 = 0.985;
 const NOTHING: f64 = 1e-6;
 /// Fewer vertices inside are not worth knowing better.
 const MANY: f64 = 1000.0;
+/// What is missing between crossing chords is filled where it is thinner than this part of the tolerance.
+const SLIVER: f64 = 0.1;
 /// Vertices of a lattice over the box of a face, for each that may lie inside.
 const MOSTLY_OUTSIDE: usize = 8;
 
@@ -317,6 +320,9 @@ impl<'a> Tessellator<'a> {
             }
             decimate(&mut triangles, &vertices, &refinement, cancelled);
             long.extend(in_the_way(&triangles));
+        }
+        if crossings.through || !crossings.pairs.is_empty() {
+            close(&mut triangles, &loops, |v| vertices.positions[v as usize], SLIVER * self.tolerance);
         }
         let mesh = finish(vertices, triangles, loops, quality);
         if mesh.triangles.len() > self.options.triangle_limit {
@@ -604,6 +610,23 @@ pub fn polygons(boundary: &Boundary) -> Vec<Vec<DVec3>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_chord_through_a_vertex_leaves_no_edge_open() {
+        // From 1 the way goes back along the chord from 0: in parameters 2 lies on it, in space a bit beside it.
+        let uvs = [(0.0, 0.0), (2.0, 0.0), (1.0, 0.0), (1.0, 3.0), (0.0, 3.0)].map(|p| DVec2::new(p.0, p.1));
+        let ring = vec![vec![0, 1, 2, 3, 4]];
+        let (region, crossings) = triangulated(&uvs, &ring).expect("triangles");
+        assert!(crossings.through && crossings.pairs.is_empty());
+        for (beside, more) in [(1e-4, 1), (0.0, 0)] {
+            let mut triangles: Vec<[u32; 3]> = region.triangles().collect();
+            let before = triangles.len();
+            let at = |v: u32| uvs[v as usize].extend(if v == 2 { beside } else { 0.0 });
+            close(&mut triangles, &ring, at, 1e-3);
+            assert_eq!(triangles.len(), before + more);
+            assert!(more == 0 || triangles[before].iter().all(|v| *v < 3));
+        }
+    }
 
     #[test]
     fn a_flap_on_a_pole_that_is_one_vertex_is_taken_out() {

@@ -56,6 +56,8 @@ pub struct Crossings {
     pub pairs: Vec<(Chord, Chord)>,
     /// Places of the vertices made there.
     pub places: Vec<DVec2>,
+    /// Whether a chord passes through a vertex.
+    pub through: bool,
 }
 
 fn point(p: DVec2) -> Point2<f64> {
@@ -105,6 +107,7 @@ impl Region {
                     continue;
                 }
                 let laid = delaunay.try_add_constraint(a, b);
+                crossings.through |= laid.len() > 1;
                 for edge in &laid {
                     if let Some(odd) = odd.get_mut(edge.as_undirected().index()) {
                         *odd = !*odd;
