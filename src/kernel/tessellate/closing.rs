@@ -1,8 +1,8 @@
 //! Slivers that are missing between the triangles of a face and its chords.
 //!
 //! Where two curves of the boundary touch, their chords may cross by rounding however short they are, or one passes through a
-//! vertex of the other. Even-odd leaves the sliver between them out, and neighbours that have those chords would stay open there. The chords less the border of the
-//! triangles are closed ways round such slivers; they are filled.
+//! vertex of the other. Even-odd leaves the sliver between them out, and neighbours that have those chords would stay open
+//! there. The chords less the border of the triangles are closed ways round such slivers; they are filled.
 //!
 //! Invariant: nothing is added unless afterwards the border of the triangles is the chords, each in the direction of its loop.
 
