@@ -9,20 +9,19 @@ use super::bends::Bends;
 use super::chords::{ChordLimits, EdgeSample, divide, divide_part};
 use super::closing::close;
 use super::decimate::decimate;
+use super::finish::{finish, folded};
 use super::flatness::Flatness;
 use super::mesh::{FaceMesh, Quality};
 use super::options::{TessellateError, TessellationOptions};
 use super::outline::{Ground, Outline, Run};
-use super::patience::{Patience, enough};
+use super::patience::Patience;
 use super::places::Places;
 use super::placing::{Middles, Vertices};
 use super::plane::Plane;
 use super::refine::Refinement;
-use super::seed::{expected, seeds};
 use super::triangulate::{Crossings, Region};
 use super::untangle::untangle;
-use crate::kernel::face::{Face, Side};
-use crate::kernel::trim::UvRect;
+use crate::kernel::face::Face;
 
 /// Vertices along every run of a face, `[chain][run]`, both ends of each included.
 pub type Boundary = Vec<Vec<Vec<EdgeSample>>>;
@@ -42,17 +41,17 @@ pub struct LongChord {
 
 /// A face ready to be meshed.
 pub struct Tessellator<'a> {
-    face: &'a Face,
-    ground: Ground<'a>,
+    pub(super) face: &'a Face,
+    pub(super) ground: Ground<'a>,
     outline: Outline,
     plane: Option<Plane>,
     flatness: Option<Flatness<'a>>,
     /// How the surface bends, unless it is a plane.
-    bends: Option<Bends>,
+    pub(super) bends: Option<Bends>,
     /// Places in the triangulation.
     places: Places,
-    options: TessellationOptions,
-    tolerance: f64,
+    pub(super) options: TessellationOptions,
+    pub(super) tolerance: f64,
 }
 
 /// Share of the tolerance within which a face counts as plane.
@@ -63,12 +62,8 @@ pub const CHORD_SHARE: f64 = 0.95;
 const CHORD_LIMIT: f64 = 0.985;
 /// Runs shorter than this part of the tolerance are one point.
 const NOTHING: f64 = 1e-6;
-/// Fewer vertices inside are not worth knowing better.
-const MANY: f64 = 1000.0;
 /// What is missing between crossing chords is filled where it is thinner than this part of the tolerance.
 const SLIVER: f64 = 0.1;
-/// Vertices of a lattice over the box of a face, for each that may lie inside.
-const MOSTLY_OUTSIDE: usize = 8;
 
 impl<'a> Tessellator<'a> {
     /// Lifts the outline of `face`.
@@ -410,30 +405,6 @@ impl<'a> Tessellator<'a> {
         }
     }
 
-    /// Puts the first vertices inside.
-    fn sow(
-        &self,
-        refinement: &Refinement,
-        region: &mut Region,
-        vertices: &mut Vertices,
-    ) -> Result<(), TessellateError> {
-        let Some(bends) = &self.bends else { return Ok(()) };
-        let bounds = around(vertices.uvs.iter().copied());
-        let limit = self.options.triangle_limit;
-        // Samples may have met what is only a hair wide.
-        let wanted = expected(bends, &bounds, self.tolerance);
-        if wanted > MANY && wanted > enough(&self.ground, self.tolerance) {
-            return Ok(());
-        }
-        // A lattice over the box may be mostly outside of the face.
-        let most = limit.saturating_mul(MOSTLY_OUTSIDE);
-        let Some(seeds) = seeds(bends, &bounds, self.tolerance, most) else {
-            return Err(TessellateError::TooManyTriangles { limit });
-        };
-        refinement.sow(region, vertices, &seeds);
-        Ok(())
-    }
-
     /// A vertex where two chords cross.
     fn add_crossing(&self, place: DVec2, refinement: &Refinement, vertices: &mut Vertices) {
         match &self.plane {
@@ -449,42 +420,6 @@ impl<'a> Tessellator<'a> {
             }
         }
     }
-
-    /// About how many triangles the mesh within `boundary` will have.
-    pub fn expected(&self, boundary: &Boundary) -> f64 {
-        const PROBES: usize = 8;
-        /// Area of the largest triangle with edges of length one.
-        const LARGEST: f64 = 0.433;
-        let samples = || boundary.iter().flatten().flatten();
-        let chords: usize = boundary.iter().flatten().map(|run| run.len().saturating_sub(1)).sum();
-        let bounds = around(samples().map(|s| s.uv));
-        let small =
-            self.options.max_edge.map_or(0.0, |edge| self.area(boundary, &bounds) / (LARGEST * edge * edge));
-        let Some(bends) = &self.bends else { return small.max(chords as f64) };
-        let mut inside = expected(bends, &bounds, self.tolerance);
-        if inside > MANY {
-            let probe = |k: usize| {
-                let share = DVec2::new((k % PROBES) as f64 + 0.5, (k / PROBES) as f64 + 0.5) / PROBES as f64;
-                let uv = bounds.native(share);
-                self.face.classify_native(uv.x, uv.y) == Side::In
-            };
-            let hits = (0..PROBES * PROBES).filter(|k| probe(*k)).count();
-            inside = inside.min(enough(&self.ground, self.tolerance));
-            inside *= hits as f64 / (PROBES * PROBES) as f64;
-        }
-        small.max(chords as f64 + 2.0 * inside)
-    }
-
-    /// About the area within `boundary`: of the polygons in parameters, times what the surface does to areas in the middle.
-    fn area(&self, boundary: &Boundary, bounds: &UvRect) -> f64 {
-        let ring = |runs: &Vec<Vec<EdgeSample>>| -> f64 {
-            let places: Vec<DVec2> = runs.iter().flatten().map(|s| s.uv - bounds.min).collect();
-            let next = places.iter().cycle().skip(1);
-            places.iter().zip(next).map(|(a, b)| 0.5 * a.perp_dot(*b)).sum()
-        };
-        let at = self.ground.tangents(0.5 * (bounds.min + bounds.max));
-        boundary.iter().map(ring).sum::<f64>().abs() * at.du.cross(at.dv).length()
-    }
 }
 
 /// The triangulation of `loops`. The crate that makes it has been seen to give up, by a panic, on loops that cross
@@ -498,12 +433,6 @@ fn sorted(mut chords: Vec<LongChord>) -> Vec<LongChord> {
     chords.sort_unstable();
     chords.dedup();
     chords
-}
-
-/// The rectangle around places.
-fn around(places: impl Iterator<Item = DVec2>) -> UvRect {
-    let start = UvRect { min: DVec2::INFINITY, max: DVec2::NEG_INFINITY };
-    places.fold(start, |r, p| UvRect { min: r.min.min(p), max: r.max.max(p) })
 }
 
 /// Factors that make the parameters even in what they do to the error: lengths of about one in either direction
@@ -525,78 +454,6 @@ fn scale(bends: &Bends, speed: DVec2, size: DVec2, tolerance: f64) -> DVec2 {
     );
     let scale = 1.0 / step;
     if scale.is_finite() && scale.min_element() > 0.0 { scale } else { 1.0 / size }
-}
-
-/// Edges of triangles that look away from the surface: where one of them is a chord it is too long.
-fn folded(vertices: &Vertices, triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
-    let mut edges = Vec::new();
-    for t in triangles {
-        let p = t.map(|v| vertices.positions[v as usize]);
-        let side: DVec3 = t.iter().map(|v| vertices.normals[*v as usize]).sum();
-        let solid = p[0] != p[1] && p[1] != p[2] && p[2] != p[0];
-        if solid && (p[1] - p[0]).cross(p[2] - p[0]).dot(side) < 0.0 {
-            edges.extend((0..3).map(|k| [t[k], t[(k + 1) % 3]]));
-        }
-    }
-    edges
-}
-
-/// Leaves out vertices without triangles and triangles without area, and names what is left anew.
-fn finish(vertices: Vertices, triangles: Vec<[u32; 3]>, loops: Vec<Vec<u32>>, quality: Quality) -> FaceMesh {
-    let at = |i: u32| vertices.positions[i as usize];
-    let solid = |t: &[u32; 3]| {
-        let [a, b, c] = t.map(at);
-        a != b && b != c && c != a
-    };
-    let all = triangles.len();
-    let mut triangles: Vec<[u32; 3]> = triangles.into_iter().filter(solid).collect();
-    if triangles.len() < all {
-        take_flaps_out(&mut triangles, at);
-    }
-    triangles.sort_unstable();
-    let mut used = vec![false; vertices.uvs.len()];
-    triangles.iter().flatten().for_each(|v| used[*v as usize] = true);
-    let mut name = vec![u32::MAX; used.len()];
-    let mut mesh = FaceMesh { quality, ..FaceMesh::default() };
-    for (k, _) in used.iter().enumerate().filter(|u| *u.1) {
-        name[k] = mesh.positions.len() as u32;
-        mesh.positions.push(vertices.positions[k]);
-        mesh.normals.push(vertices.normals[k]);
-        mesh.uvs.push(vertices.uvs[k]);
-    }
-    mesh.triangles = triangles.into_iter().map(|t| t.map(|v| name[v as usize])).collect();
-    let kept =
-        |ring: Vec<u32>| ring.into_iter().map(|v| name[v as usize]).filter(|v| *v != u32::MAX).collect();
-    mesh.loops = loops.into_iter().map(kept).collect();
-    mesh
-}
-
-/// Takes out pairs of triangles that are each other's back. Where all of a pole is one vertex, what is left of the triangles
-/// round a vertex beside it may be such a pair: a flap, on an edge that others have already.
-fn take_flaps_out(triangles: &mut Vec<[u32; 3]>, at: impl Fn(u32) -> DVec3) {
-    // The corners in an order of their own, and whether that is the other way round.
-    let named = |t: &[u32; 3]| {
-        let mut key = t.map(|v| (at(v) + 0.0).to_array().map(f64::to_bits));
-        let first = (0..3).min_by_key(|k| key[*k]).unwrap_or(0);
-        key.rotate_left(first);
-        let turned = key[1] > key[2];
-        if turned {
-            key.swap(1, 2);
-        }
-        (key, turned)
-    };
-    let mut sides: Vec<_> = triangles.iter().enumerate().map(|(k, t)| (named(t), k)).collect();
-    sides.sort_unstable();
-    let mut gone = vec![false; triangles.len()];
-    for pair in sides.chunk_by(|a, b| a.0.0 == b.0.0).filter(|same| same.len() == 2 && same[0].0 != same[1].0)
-    {
-        pair.iter().for_each(|(_, k)| gone[*k] = true);
-    }
-    let mut k = 0;
-    triangles.retain(|_| {
-        k += 1;
-        !gone[k - 1]
-    });
 }
 
 /// Positions of a boundary as closed polygons.
@@ -626,15 +483,5 @@ mod tests {
             assert_eq!(triangles.len(), before + more);
             assert!(more == 0 || triangles[before].iter().all(|v| *v < 3));
         }
-    }
-
-    #[test]
-    fn a_flap_on_a_pole_that_is_one_vertex_is_taken_out() {
-        // 0 and 1 are the pole, 2 to 4 stand round it, 5 between the two of the pole and 3.
-        let pole = DVec3::ZERO;
-        let places = [pole, pole, DVec3::X, DVec3::new(0.7, 0.7, 0.0), DVec3::Y, DVec3::new(0.3, 0.3, 0.0)];
-        let mut triangles = vec![[0, 2, 3], [0, 3, 5], [1, 5, 3], [1, 3, 4]];
-        take_flaps_out(&mut triangles, |v| places[v as usize]);
-        assert_eq!(triangles, [[0, 2, 3], [1, 3, 4]]);
     }
 }
