@@ -39,7 +39,7 @@ pub fn face_deviations(
                 let l = [i, j, DENSITY - i - j].map(|x| x as f64 / DENSITY as f64);
                 let at = p[0] * l[0] + p[1] * l[1] + p[2] * l[2];
                 let start = uv[0] * l[0] + uv[1] * l[1] + uv[2] * l[2];
-                worst = worst.max(target.offer(at, start, worst.max(doubt)).2);
+                worst = worst.max(target.offer(at, start, worst.max(doubt)).1);
             }
         }
         Ok(worst)

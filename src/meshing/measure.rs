@@ -95,18 +95,17 @@ pub fn measure_face(face: &Face, mesh: &FaceMesh, density: usize, most: usize) -
                 let l = [i as f64, j as f64, (density - i - j) as f64].map(|x| x / density as f64);
                 let at = p[0] * l[0] + p[1] * l[1] + p[2] * l[2];
                 let start = uv[0] * l[0] + uv[1] * l[1] + uv[2] * l[2];
-                let (foot, off, from_face) = target.offer(at, start, distance.mesh_to_surface);
+                let (foot, from_face) = target.offer(at, start, distance.mesh_to_surface);
                 distance.note(from_face, 0.0, at);
                 distance.samples += 1;
                 // The surface's own points near the foot against the mesh.
                 if target.locator.classify_native(foot.x, foot.y) == Side::In {
                     let p = target.ground.point(foot);
-                    distance.note(0.0, to_mesh(mesh, &tree, p, off.max(1e-300) * 1.0001), p);
+                    distance.note(0.0, to_mesh(mesh, &tree, p), p);
                 }
             }
         }
     }
-    let about = |d: &Distance| d.surface_to_mesh.max(d.mesh_to_surface).max(1e-9);
     let side =
         ((most as f64).sqrt() as usize).clamp(4, 40 + 2 * (mesh.triangles.len() as f64).sqrt() as usize);
     for k in 0..side * side {
@@ -114,13 +113,13 @@ pub fn measure_face(face: &Face, mesh: &FaceMesh, density: usize, most: usize) -
         let uv = face.domain.native(share);
         if target.locator.classify_native(uv.x, uv.y) == Side::In {
             let p = target.ground.point(uv);
-            distance.note(0.0, to_mesh(mesh, &tree, p, about(&distance)), p);
+            distance.note(0.0, to_mesh(mesh, &tree, p), p);
             distance.samples += 1;
         }
     }
     let skip = (target.points.len() / most.max(1)).max(1);
     for p in target.points.iter().step_by(skip) {
-        distance.note(0.0, to_mesh(mesh, &tree, *p, about(&distance)), *p);
+        distance.note(0.0, to_mesh(mesh, &tree, *p), *p);
         distance.samples += 1;
     }
     distance
@@ -171,10 +170,10 @@ impl<'a> Target<'a> {
         Self { face, locator, ground, points, curves, parts, tree }
     }
 
-    /// Foot of `p` on the surface, searched from `start`, and its distance; and the distance of `p` from the trimmed face
-    /// where that is more than `most`.
-    pub(super) fn offer(&self, p: DVec3, start: DVec2, most: f64) -> (DVec2, f64, f64) {
-        let (mut foot, mut off) = project(&self.ground, p, start);
+    /// Foot of `p` on the surface, searched from `start`, and the distance of `p` from the trimmed face where that is more than
+    /// `most`.
+    pub(super) fn offer(&self, p: DVec3, start: DVec2, most: f64) -> (DVec2, f64) {
+        let (mut foot, off) = project(&self.ground, p, start);
         let outside = |foot: DVec2| self.locator.classify_native(foot.x, foot.y) != Side::In;
         let from_face =
             |foot: DVec2, off: f64| if outside(foot) { off.max(self.off_outline(p)) } else { off };
@@ -183,26 +182,18 @@ impl<'a> Target<'a> {
             && let Some(nearest) = closer_on_surface(&self.face.patches, p, found)
         {
             if nearest.distance < off {
-                (foot, off) = (nearest.uv, nearest.distance);
+                foot = nearest.uv;
             }
             found = found.min(from_face(nearest.uv, nearest.distance));
         }
-        (foot, off, found)
+        (foot, found)
     }
 
     /// Distance of `p` from the outline.
     fn off_outline(&self, p: DVec3) -> f64 {
-        let size = self.tree.bounds().diagonal();
-        let mut reach = 1e-6 * size;
-        while reach <= 4.0 * size {
-            let mut best = f64::INFINITY;
-            self.tree.within(p, reach, |k| best = best.min(self.off_part(p, k)));
-            if best <= reach {
-                return best;
-            }
-            reach *= 4.0;
-        }
-        0.0
+        let nearest = self.tree.nearest(p, |k| self.off_part(p, k));
+        // Without an outline nothing is off it.
+        if nearest.is_finite() { nearest } else { 0.0 }
     }
 
     /// Distance of `p` from a part of the outline, which is too short to have more than one nearest point.
@@ -279,21 +270,9 @@ fn project(ground: &Ground, p: DVec3, start: DVec2) -> (DVec2, f64) {
     (uv, best)
 }
 
-/// Distance of `p` from the nearest triangle; searched first within `about`.
-fn to_mesh(mesh: &FaceMesh, tree: &BoundsTree, p: DVec3, about: f64) -> f64 {
-    let mut reach = about.max(1e-12 * tree.bounds().diagonal());
-    for _ in 0..64 {
-        let mut best = f64::INFINITY;
-        tree.within(p, reach, |k| {
-            let t = mesh.triangles[k].map(|v| mesh.positions[v as usize]);
-            best = best.min(to_triangle(p, t));
-        });
-        if best <= reach {
-            return best;
-        }
-        reach *= 2.0;
-    }
-    f64::INFINITY
+/// Distance of `p` from the nearest triangle.
+fn to_mesh(mesh: &FaceMesh, tree: &BoundsTree, p: DVec3) -> f64 {
+    tree.nearest(p, |k| to_triangle(p, mesh.triangles[k].map(|v| mesh.positions[v as usize])))
 }
 
 /// Distance of a point from a triangle (Ericson 2005, section 5.1.5).

@@ -55,6 +55,35 @@ impl BoundsTree {
         self.descend(near, &mut visit);
     }
 
+    /// The least `distance` of an item from `point`, asked of those only whose boxes may be nearer than the best so far;
+    /// infinite without items.
+    pub fn nearest(&self, point: DVec3, mut distance: impl FnMut(usize) -> f64) -> f64 {
+        let squared = |at: usize| {
+            let b = &self.nodes[at].bounds;
+            (point.clamp(b.min, b.max) - point).length_squared()
+        };
+        let mut best = f64::INFINITY;
+        let mut stack = Vec::with_capacity(40);
+        if !self.nodes.is_empty() {
+            stack.push((0, squared(0)));
+        }
+        while let Some((at, away)) = stack.pop() {
+            if away > best * best {
+                continue;
+            }
+            let node = &self.nodes[at];
+            if node.count > 0 {
+                let items = node.first as usize..(node.first + node.count) as usize;
+                best = self.items[items].iter().fold(best, |best, i| best.min(distance(*i as usize)));
+            } else {
+                let [left, right] = [at + 1, node.first as usize].map(|child| (child, squared(child)));
+                // The nearer one is looked at first.
+                stack.extend(if left.1 <= right.1 { [right, left] } else { [left, right] });
+            }
+        }
+        best
+    }
+
     /// Calls `visit` with each item whose box comes within `distance`, along every axis, of `around`.
     pub fn meeting(&self, around: &Bounds, distance: f64, mut visit: impl FnMut(usize)) {
         let meets = |b: &Bounds| {
@@ -152,5 +181,24 @@ mod tests {
             assert!(each.iter().all(|i| found.contains(i)));
             assert!(found.len() < 120);
         }
+    }
+
+    #[test]
+    fn the_nearest_is_that_of_all_and_few_are_asked() {
+        let at = |k: usize| DVec3::new((k * 37 % 50) as f64, (k * 61 % 41) as f64, (k * 13 % 29) as f64);
+        let boxes: Vec<Bounds> = (0..200).map(|k| Bounds { min: at(k), max: at(k) + DVec3::ONE }).collect();
+        let tree = BoundsTree::new(&boxes);
+        let mut asked = 0;
+        for k in 0..100 {
+            let point = DVec3::new(k as f64 * 0.7 - 10.0, k as f64 * 0.4, 14.5);
+            let off = |i: usize| point.distance(at(i) + 0.5);
+            let nearest = tree.nearest(point, |i| {
+                asked += 1;
+                off(i)
+            });
+            assert_eq!(nearest, (0..boxes.len()).map(off).fold(f64::INFINITY, f64::min));
+        }
+        assert!(asked < 100 * boxes.len() / 5, "{asked}");
+        assert_eq!(BoundsTree::new(&[]).nearest(DVec3::ZERO, |_| 0.0), f64::INFINITY);
     }
 }
