@@ -141,6 +141,8 @@ pub(super) struct Target<'a> {
 
 /// Parts of a piece of the outline.
 const PARTS: usize = 16;
+/// Steps along a part, between which there is one nearest point at most.
+const STARTS: usize = 8;
 
 impl<'a> Target<'a> {
     pub(super) fn new(face: &'a Face) -> Self {
@@ -196,37 +198,54 @@ impl<'a> Target<'a> {
         if nearest.is_finite() { nearest } else { 0.0 }
     }
 
-    /// Distance of `p` from a part of the outline, which is too short to have more than one nearest point.
+    /// Distance of `p` from a part of the outline.
     fn off_part(&self, p: DVec3, part: usize) -> f64 {
         let (curve, start, end) = self.parts[part];
         let curve = &self.curves[curve];
         if curve.degree() == 1 {
             return distance_to_segment(p, curve.point(start), curve.point(end));
         }
-        let (mut from, mut to) = (start, end);
-        let off = |t: f64| curve.point(t).distance(p);
-        for _ in 0..12 {
-            let third = (to - from) / 3.0;
-            if off(from + third) < off(to - third) {
-                to -= third;
-            } else {
-                from += third;
-            }
-        }
-        // From here Newton's method is quicker.
-        let mut best = off(start).min(off(end));
-        let mut t = 0.5 * (from + to);
-        for _ in 0..6 {
-            let (here, d) = curve.tangent(t);
-            best = best.min(here.distance(p));
-            let step = (p - here).dot(d) / d.length_squared();
-            if !step.is_finite() {
-                break;
-            }
-            t = (t + step).clamp(start, end);
-        }
-        best.min(off(t))
+        // A part of an edge that swings (a loft through many sections) has more than one place that is nearest around it.
+        let step = (end - start) / STARTS as f64;
+        let offs: [f64; STARTS + 1] =
+            std::array::from_fn(|k| curve.point(start + k as f64 * step).distance(p));
+        let beside = |k: usize| offs[k.saturating_sub(1)].min(offs[(k + 1).min(STARTS)]);
+        let around = (0..=STARTS).filter(|k| offs[*k] <= beside(*k)).map(|k| start + k as f64 * step);
+        around
+            .map(|t| off_around(curve, p, (t - step).max(start), (t + step).min(end)))
+            .chain(offs)
+            .fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Distance of `p` from a curve between two parameters, with one nearest point between them.
+fn off_around(curve: &BezierCurve3, p: DVec3, mut from: f64, mut to: f64) -> f64 {
+    let (start, end) = (from, to);
+    let off = |t: f64| curve.point(t).distance(p);
+    for _ in 0..6 {
+        let third = (to - from) / 3.0;
+        if off(from + third) < off(to - third) {
+            to -= third;
+        } else {
+            from += third;
+        }
+    }
+    // From here Newton's method is quicker.
+    let mut best = f64::INFINITY;
+    let mut t = 0.5 * (from + to);
+    for _ in 0..6 {
+        let jet = curve.jet(t);
+        let off = jet.point - p;
+        best = best.min(off.length());
+        let plain = jet.d1.length_squared();
+        let full = plain + off.dot(jet.d2);
+        let step = -off.dot(jet.d1) / if full > 0.0 { full } else { plain };
+        if !step.is_finite() {
+            break;
+        }
+        t = (t + step).clamp(start, end);
+    }
+    best.min(off(t))
 }
 
 /// Whether the face is on either side of its outline at `t` of a piece. Where two loops run along each other (a hole that ends
@@ -321,6 +340,26 @@ mod tests {
             assert!((mesh.area() - 0.9).abs() < 1e-6, "{}", mesh.area());
             let found = measure_face(&face, &mesh, 4, 4000);
             assert!(found.largest() < 1e-6, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn an_edge_that_swings_is_as_near_as_its_nearest_swing() {
+        let points = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+        let surface = NurbsSurface::new(knots(), knots(), points.to_vec(), vec![1.0; 4]).expect("a surface");
+        let face = Face::derive(&surface, &[]).expect("a face");
+        let mut target = Target::new(&face);
+        let heights = [0.0, 5.0, -9.0, 9.0, -5.0, 0.0];
+        let swings = (0..6).map(|k| DVec3::new(f64::from(k), heights[k as usize], 0.0)).collect();
+        let curve = BezierCurve3 { points: swings, weights: vec![1.0; 6] };
+        target.tree = BoundsTree::new(&[Bounds::of(curve.points.iter().copied())]);
+        (target.curves, target.parts) = (vec![curve.clone()], vec![(0, 0.0, 1.0)]);
+        for k in 0..60 {
+            let p = DVec3::new(0.1 * f64::from(k), (f64::from(k) * 0.7).sin(), 0.2);
+            let dense = (0..=20_000).map(|i| curve.point(f64::from(i) / 2e4).distance(p));
+            let dense = dense.fold(f64::INFINITY, f64::min);
+            let found = target.off_outline(p);
+            assert!((found - dense).abs() < 1e-5, "{p}: {found} for {dense}");
         }
     }
 }
