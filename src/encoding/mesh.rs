@@ -266,9 +266,11 @@ impl MeshScene {
         if let Some(part) = self.parts.remove(&key) {
             self.vertices.remove(part.vertices);
             self.origins.remove(part.origin..part.origin + 1);
-            // Its vertices may be used again.
-            self.selected.clear();
-            self.indices.clear();
+            // Its vertices may be used again; those of what is not selected are in no list that is drawn.
+            if self.selected.binary_search(&key).is_ok() {
+                self.selected.clear();
+                self.indices.clear();
+            }
         }
     }
 }
@@ -325,6 +327,10 @@ mod tests {
             assert!(found.complete && found.cast.is_empty());
         }
         assert!(most > 2, "{most}");
+        // Making room takes nothing of what is drawn.
+        let (held, drawn) = (meshes.vertices.live(), meshes.indices().to_vec());
+        meshes.trim_to(0);
+        assert!(meshes.vertices.live() < held && !drawn.is_empty() && meshes.indices() == drawn);
         meshes.forget(slot);
         assert!(!seen(&mut meshes, far).complete && meshes.indices().is_empty());
     }

@@ -100,7 +100,7 @@ mod tests {
             close(&mut triangles, &[ring.clone()], at, 1e-3);
             assert_eq!(triangles.len(), 5);
             let mut sliver = triangles[4];
-            let first = (0..3).min_by_key(|k| sliver[*k]).unwrap();
+            let first = (0..3).min_by_key(|k| sliver[*k]).expect("three corners");
             sliver.rotate_left(first);
             assert_eq!(sliver, [0, 5, 4]);
             // Closed already, or missing more than a sliver.

@@ -2,7 +2,7 @@
 //!
 //! Refinement ends by itself where a surface is smooth. It does not where a surface has a cusp, or folds back on itself
 //! within less than any triangle: there every division leaves as much to do. What a face can need is known beforehand, by
-//! its second derivatives (Filip, Magedson & Markot 1986): when several times that does not get it within the tolerance nothing
+//! its second derivatives (Filip, Magedson & Markot 1986): when that many do not get it within the tolerance nothing
 //! will, and what is left is said not to be proved. Triangles that look away from the surface are divided for that only so
 //! often; after that it is the surface that is folded, and distance alone counts.
 
@@ -17,8 +17,6 @@ const FOLDS: usize = 2;
 /// Divisions for the distance that are not worth counting what the face can need.
 const FEW: usize = 1000;
 const EACH: usize = 10;
-/// How many times more than that it may take.
-const TIMES: f64 = 1.0;
 /// Weights that differ by more than this are not taken to bend a surface by more.
 const WIDEST: f64 = 16.0;
 
@@ -55,7 +53,7 @@ impl Patience {
     pub fn divide(&self, ground: &Ground, tolerance: f64) -> bool {
         if self.divisions.get() == 0 && !self.counted.replace(true) {
             // Larger numbers than any limit of triangles are as good as the largest.
-            self.divisions.set((TIMES * enough(ground, tolerance)).min(1e15) as usize);
+            self.divisions.set(enough(ground, tolerance).min(1e15) as usize);
         }
         let left = self.divisions.get();
         self.divisions.set(left.saturating_sub(1));
